@@ -21,6 +21,7 @@ import math
 import sys
 import warnings
 from collections import Counter
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -65,6 +66,11 @@ class Crash(NamedTuple):
     def side(self, label: str) -> Any:
         """One car of the impact."""
         return getattr(self.impact, label)
+
+    def off(self, answer: col.Impact) -> float:
+        """How far an answer is from the truth, in m/s."""
+        one, other = (getattr(each, self.sought).before.speed for each in (answer, self.impact))
+        return float(abs(one - other))
 
     def read(self, error: float) -> dict[str, Any]:
         """What ``speeds`` is given."""
@@ -121,11 +127,6 @@ def crashes(count: int = CRASHES, seed: int = SEED) -> list[Crash]:
 
 def answered(crash: Crash, error: float) -> str:
     """How ``speeds`` answers one crash, as one of ``ANSWERS``."""
-
-    def off(one: col.Impact) -> float:
-        truth = crash.side(crash.sought).before.speed
-        return abs(getattr(one, crash.sought).before.speed - truth)
-
     given = crash.impact.inputs
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
@@ -133,16 +134,16 @@ def answered(crash: Crash, error: float) -> str:
             found = reconstruct.speeds(given.a, given.b, **crash.read(error))
         except col.AmbiguousSolutionError as refusal:
             stuck = [one for one in refusal.solutions if one.regime == "sticking"]
-            right = bool(stuck) and min(map(off, stuck)) <= NEAR
+            right = bool(stuck) and min(map(crash.off, stuck)) <= NEAR
             return "ambiguous, stuck right" if right else "ambiguous"
         except col.CollisionsError:
             return "refused"
-    if min(map(off, found)) <= NEAR:
+    if min(map(crash.off, found)) <= NEAR:
         return "right"
     return "wrong, warned" if caught else "wrong in silence"
 
 
-def measured(drawn: list[Crash], errors: Any = ERRORS, thresholds: Any = THRESHOLDS) -> Any:
+def measured(drawn: Sequence[Crash], errors: Any = ERRORS, thresholds: Any = THRESHOLDS) -> Any:
     """A row by error, threshold and how the contact ended: how many were answered how."""
     kept = speeds_components._BEYOND
     rows: list[Numbers] = []
@@ -167,9 +168,24 @@ def measured(drawn: list[Crash], errors: Any = ERRORS, thresholds: Any = THRESHO
     return rows
 
 
-def load() -> Numbers:
+def load(data: Path = DATA) -> Numbers:
     """What was written."""
-    found: Numbers = json.loads(DATA.read_text(encoding="utf-8"))
+    found: Numbers = json.loads(data.read_text(encoding="utf-8"))
+    return found
+
+
+def written(drawn: Sequence[Crash], crashes_of_each: int, data: Path) -> Numbers:
+    """What is measured of these crashes, written."""
+    found = {
+        "settings": {
+            "crashes": crashes_of_each,
+            "seed": SEED,
+            "near": NEAR,
+            "threshold": speeds_components._BEYOND,
+        },
+        "rows": measured(drawn),
+    }
+    data.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
     return found
 
 
@@ -246,16 +262,7 @@ def main() -> None:
     if options.list:
         sys.stdout.write(listed(drawn) + "\n")
         return
-    found = {
-        "settings": {
-            "crashes": options.crashes,
-            "seed": SEED,
-            "near": NEAR,
-            "threshold": speeds_components._BEYOND,
-        },
-        "rows": measured(drawn),
-    }
-    options.json.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+    found = written(drawn, options.crashes, options.json)
     sys.stdout.write(table(found) + "\n")
 
 

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import collisions as col
-from collisions import uncertainty
+from collisions import travel, uncertainty
 from collisions.reconstruct import speeds
 from collisions.uncertainty import Normal, propagate
 from scenes import LAWS
@@ -801,6 +801,38 @@ def test_beside_an_energy_a_contact_that_stuck_has_the_condition_of_one_that_sli
     condition = found().reconstruction.condition
     assert found().regime == "sticking"
     assert condition == pytest.approx(moved / hit.closing_speed, rel=0.01)
+
+
+@pytest.mark.parametrize("with_tyres", [False, True])
+@pytest.mark.parametrize(
+    ("factor", "said"),
+    [
+        (0.39, "contradictory"), (0.41, "recorders_differ"), (0.79, "recorders_differ"),
+        (0.81, None), (1.19, None), (1.21, "recorders_differ"), (1.59, "recorders_differ"),
+        (1.61, "contradictory"),
+    ],
+)  # fmt: skip
+def test_what_an_energy_may_differ_by_beside_a_contact_that_stuck(factor, said, with_tyres):
+    """A fifth in silence, and three fifths at most, while the components alone tell the speeds."""
+    hit = col.eccentric(
+        body(9.0, 0.1, **fields(A)), body(16.0, 1.5, **fields(B)), 0.1, **CONTACT, friction=math.inf
+    )
+    given = GIVEN | {"regime": "sticking", "energy_loss": factor * hit.energy_loss}
+    if with_tyres:
+        none = travel.Tyres(1e-9, 0, 1.2, 1.3)
+        given |= {"duration": 0.1, "tyres_a": none, "tyres_b": none}
+    known = {f"delta_v_{part}_a": getattr(hit.a, f"delta_v_{part}") for part in ("forward", "left")}
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        if said == "contradictory":
+            with pytest.raises(col.NoSolutionError) as refused:
+                speeds(A, B, **given, **known)
+            assert refused.value.code == said
+            return
+        (found,) = speeds(A, B, **given, **known)
+    assert [one.message.code for one in caught] == ([said] if said else [])
+    assert found.a.before.speed == pytest.approx(9.0, abs=1e-6)
+    assert found.b.before.speed == pytest.approx(16.0, abs=1e-6)
 
 
 @cache

@@ -12,7 +12,7 @@ import pytest
 import collisions as col
 from collisions import reconstruct
 from collisions.reporting import replay, report
-from pages import tampered
+from pages import GONE, put, tampered
 
 A = col.Vehicle(mass="1500 kg", yaw_inertia=2500, vx=12, x=-2.0, y=0.6, heading="0 deg")
 B = col.Vehicle(mass=1200, yaw_inertia=1800, vy=9, x=0.9, y=-1.0, heading="90 deg")
@@ -36,7 +36,6 @@ ANSWERS = {
         speed_b_after=AHEAD.b.after.speed,
     ),
 }
-GONE = object()
 OTHERS = [None, "x", "", 0, 1, -1, True, 1e308, math.nan, 10**400, [], [1], {}, {"a": 1}, GONE]
 
 
@@ -58,15 +57,7 @@ def test_anything_in_any_place_is_read_or_refused(name):
     refused = 0
     for path in places(whole):
         for other in OTHERS:
-            record = copy.deepcopy(whole)
-            *above, last = path
-            inside = record
-            for key in above:
-                inside = inside[key]
-            if other is GONE:
-                del inside[last]
-            else:
-                inside[last] = other
+            record = put(copy.deepcopy(whole), path, other)
 
             def change(old, record=record):
                 old.clear()

@@ -41,6 +41,7 @@ from .speeds_components import (
     MOST_ENERGY,
     RATIO_SHOWN,
     ComponentScene,
+    with_most_energy,
 )
 from .speeds_search import Search
 from .speeds_tyres import Attempt
@@ -145,10 +146,11 @@ def answers_of(
         )
         for label, speed in zip("AB", root[:2], strict=True):
             speed = np.where(impact.refused, np.nan, speed * scene.speed_unit)
-            backward, whose = min(
-                (backward, whose), (float(np.fmin.reduce(speed, axis=None, initial=0.0)), label)
-            )
-            turned = turned | np.less(speed, 0.0)
+            # One that is 0 to rounding goes neither way.
+            goes_back = np.less(speed, -ROOT_TOL * impact.closing_speed)
+            slowest = np.fmin.reduce(np.where(goes_back, speed, 0.0), axis=None, initial=0.0)
+            backward, whose = min((backward, whose), (float(slowest), label))
+            turned = turned | goes_back
         impacts.append(impact)
         scenes.append(own)
     if cases.shape is not None and np.any(impacts[0].refused):
@@ -382,11 +384,7 @@ def _either_beside_an_energy(
     """The error for a single case in which components and an energy fit one that stuck and one that
     slid.
     """
-    more = {
-        name: (MOST_ENERGY if name == "energy_loss" else math.sqrt(MOST_ENERGY)) * value
-        for name, value in known.items()
-        if name not in COMPONENTS
-    }
+    more = {name: one for name, one in with_most_energy(known).items() if name not in COMPONENTS}
     answers: list[tuple[Impact, ...]] = []
     for changes in ({"regime": "sticking"}, {"regime": "sliding"}, {"regime": "sliding", **more}):
         answers.append(())

@@ -60,7 +60,7 @@ MAY_SLIDE = INTER_VEHICLE_FRICTION.low
 _ONE_ANSWER = 1e-3
 # Of the impulse: what misses its known values by no more, as by their last digits, meets them.
 _EXACT = 1e-4
-# Of an energy, which goes as the square of an impulse: how much more it may have been.
+# How much more than was known an energy may have been: it goes as the square of an impulse.
 MOST_ENERGY = 1.0 + 2.0 * ACCURACY
 # Beside a known speed, readings within their accuracy lead from the one to the other nearly always.
 # What lies beyond those with which a contact sticks by more, of the closing speed, is another one.
@@ -83,15 +83,36 @@ RATIO_SHOWN = "Write `friction=inf, slid='bound'`, which takes the ratio that th
 _FOUND = ("misfit", "ended", "ratio", "may_slide", "leaves_slip", "both_ways")
 
 
+def with_most_energy(known: Mapping[str, Any]) -> dict[str, Any]:
+    """What was known, with the greatest energy that it may stand for; EES go as its root."""
+    factors = {
+        name: MOST_ENERGY if name == "energy_loss" else math.sqrt(MOST_ENERGY)
+        for name in ("energy_loss", "ees_a", "ees_b")
+    }
+    return {
+        name: factors[name] * value if name in factors else value for name, value in known.items()
+    }
+
+
 def fit_either(
-    misfit: Any, least: Any, stuck: Sequence[Any], slid: Sequence[Sequence[Any]], closing: Any
+    misfit: Any,
+    least: Any,
+    stuck: Sequence[Any],
+    slid: Sequence[Sequence[Any]],
+    closing: Any,
+    forward_only: bool,
 ) -> Any:
     """Whether a contact that stuck, which misses what is known by this share of the impulse, fits
     within the accuracy of recorders, and speeds of one that slid, in pairs, NaN where they do not
-    fit, are far from its own; but not where the ``least`` that any misses is nothing.
+    fit, are far from its own; but not where the ``least`` that any misses is nothing. With
+    ``forward_only`` speeds backwards are none.
     """
-    apart = [abs(one - own) for pair in slid for one, own in zip(pair, stuck, strict=True)]
-    far = np.fmax.reduce(np.broadcast_arrays(*apart)) > _BEYOND * closing
+    far: Any = False
+    for pair in slid:
+        slowest = np.minimum.reduce(np.broadcast_arrays(*pair, *stuck))
+        allowed = slowest >= 0.0 if forward_only else True
+        for one, own in zip(pair, stuck, strict=True):
+            far = far | (allowed & (abs(one - own) > _BEYOND * closing))
     either: Any = (misfit <= ACCURACY) & (least > _EXACT) & far
     return either
 
@@ -646,27 +667,17 @@ class ComponentScene(Scene):
         assert self.energy is not None
         (stuck_at,) = (at for at, regime in enumerate(regimes) if regime is STICK)
         own, own_misfit, _ = stuck[stuck_at]
-        with_more = copy(self)
-        with_more.energy = MOST_ENERGY * self.energy
-        further = [with_more._end(regime) for regime in regimes if regime is not STICK]
+        most = copy(self)
+        most.energy = MOST_ENERGY * self.energy
+        further = [most._end(regime) for regime in regimes if regime is not STICK]
         # One that loses more fits too, also where none loses as little.
-        exact = np.fmin.reduce(np.broadcast_arrays(own_misfit, *(one[1] for one in sliding)))
-        either: Any = np.zeros((), dtype=bool)
-        for pair in zip(sliding, further, strict=True):
-            here = [misfit <= ACCURACY for _, misfit, _ in pair]
-            slid = [
-                [np.where(fits, speed, np.nan) for speed in root[:2]]
-                for (root, _, _), fits in zip(pair, here, strict=True)
-            ]
-            slid = [self._ahead(speeds) for speeds in slid]
-            either = either | fit_either(own_misfit, exact, self._ahead(own[:2]), slid, own.closing)
+        least = np.fmin.reduce(np.broadcast_arrays(own_misfit, *(one[1] for one in sliding)))
+        slid = [
+            [np.where(misfit <= ACCURACY, speed, np.nan) for speed in root[:2]]
+            for root, misfit, _ in (*sliding, *further)
+        ]
+        either = fit_either(own_misfit, least, own[:2], slid, own.closing, self.forward_only)
         return either & np.isfinite(self.bound) & ~self.shows_friction
-
-    def _ahead(self, speeds: Sequence[Any]) -> list[Any]:
-        """These speeds, NaN where one goes backwards and only those forwards are asked for."""
-        first, second = speeds
-        ahead = np.minimum(first, second) >= 0.0 if self.forward_only else True
-        return [np.where(ahead, one, np.nan) for one in speeds]
 
     def loses_more(self) -> Any:
         """Whether the known energy is more than a contact that stuck loses."""

@@ -322,11 +322,11 @@ class Search:
         kept = found if more else []
         if beside_energy and isinstance(scene, ComponentScene):
             misfits = [scene.of_way(root.way).misfit for root, _ in kept]
-            answer = speeds_beside_an_energy(*arguments, misfits)
+            answer, either = speeds_beside_an_energy(*arguments, misfits, self.forward_only)
+            if self.regime is None:
+                scene.ambiguous = scene.ambiguous | either
         else:
             answer = speeds_with_tyres(*arguments, len(kept))
-        if beside_energy and self.regime is None:
-            scene.ambiguous = scene.ambiguous | answer.either
         fits = answer.settled
         rooted = np.any([there for _, there in found] or [False], axis=0)
         if self._balanced and not (more or knows_speed):

@@ -34,10 +34,10 @@ from .speeds_algebra import EITHER, FREE, HELD, ROOT_TOL, Root, Scene
 from .speeds_components import (
     ACCURACY,
     COMPONENTS,
-    MOST_ENERGY,
     ComponentScene,
     by_way,
     fit_either,
+    with_most_energy,
 )
 
 # Shares of the impulse of all tyres: below the first a change of it is rounding, above the second
@@ -74,9 +74,9 @@ _MOST_STARTS = 16
 
 class Found(NamedTuple):
     """Speeds of A and B along their courses, where they have what was known, the closing speed,
-    where the contact sticks, the condition, by how much of the impulse the components are missed
-    that are more than is needed, in all and of the vehicle that is missed by more, None where none
-    is, and in which cases one that stuck and one that slid fit either way.
+    where the contact sticks, the condition, and by how much of the impulse the components are
+    missed that are more than is needed, in all and of the vehicle that is missed by more; None
+    where none is.
     """
 
     speed_a: Any
@@ -87,7 +87,6 @@ class Found(NamedTuple):
     condition: Any
     misfit: Any = None
     worst: Any = None
-    either: Any = False
 
 
 class Attempt(NamedTuple):
@@ -513,13 +512,15 @@ def speeds_beside_an_energy(
     known: Mapping[str, Any],
     shape: tuple[int, ...],
     kept: Sequence[Any],
-) -> Found:
-    """As ``speeds_with_tyres``, from components and an energy: as without tyres, one that slid
-    loses that energy, and of one that stuck the components alone tell the speeds, while the energy
-    is a reading that its loss is held against.
+    forward_only: bool,
+) -> tuple[Found, Any]:
+    """As ``speeds_with_tyres``, from components and an energy, and in which cases one that stuck
+    and one that slid fit either way.
 
-    ``kept`` has the misfits of the first starts, which are answers already: one that stuck may be
-    taken for one that slid where it takes all of the friction, and loses another energy.
+    As without tyres, one that slid loses that energy, and of one that stuck the components alone
+    tell the speeds, while the energy is a reading that its loss is held against. ``kept`` has the
+    misfits of the first starts, which are answers already: one that stuck may be taken for one that
+    slid where it takes all of the friction, and loses another energy.
     """
     count = len(kept)
     slid = speeds_with_tyres(inputs, directions, instant, known, shape, count)
@@ -547,18 +548,16 @@ def speeds_beside_an_energy(
     slid = slid._replace(settled=slid.settled & ~slid.sticks)
     # Of one start that which fits better.
     better = there & ~(slid.settled & (slid.misfit < stuck.misfit))
-    both = zip(stuck[:-1], slid[:-1], strict=True)
-    merged = Found(*(np.where(better, one, other) for one, other in both))
-    more = MOST_ENERGY if name == "energy_loss" else math.sqrt(MOST_ENERGY)
-    lost = {one: more * np.asarray(value) for one, value in known.items() if one not in parts}
-    reached = speeds_with_tyres(inputs, directions, instant, {**known, **lost}, shape)
+    found = Found(*(np.where(better, one, other) for one, other in zip(stuck, slid, strict=True)))
+    reached = speeds_with_tyres(inputs, directions, instant, with_most_energy(known), shape)
     # The best of each. One that loses more fits too, also where none loses as little.
     own, *own_speeds, closing = _with_least(there, stuck, stuck.closing)
     other, *speeds = _with_least(slid.settled & (slid.worst <= ACCURACY), slid)
     there_too = reached.settled & ~reached.sticks & (reached.worst <= ACCURACY)
     _, *more_speeds = _with_least(there_too, reached)
-    either = fit_either(own, np.fmin(own, other), own_speeds, (speeds, more_speeds), closing)
-    return merged._replace(either=either)
+    pairs = speeds, more_speeds
+    either = fit_either(own, np.fmin(own, other), own_speeds, pairs, closing, forward_only)
+    return found, either
 
 
 def _with_least(there: Any, found: Found, *more: Any) -> list[Any]:
