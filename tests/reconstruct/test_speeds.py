@@ -405,6 +405,30 @@ def test_a_negative_speed_is_said():
     assert found.b.before.vx == pytest.approx(-5.0, rel=1e-12)
 
 
+def test_a_parked_car_does_not_go_backwards():
+    """Its speed is found as 0 but for rounding, to either side."""
+    rng, below = np.random.default_rng(3), 0
+    for _ in range(20):
+        a = A.replace(vx=rng.uniform(5.0, 25.0), heading=0.1)
+        b = B.replace(vx=0.0, heading=1.2)
+        contact = {"normal": rng.uniform(-0.3, 0.3), "point": (0.0, rng.uniform(-0.4, 0.4))}
+        contact |= {"restitution": 0.1, "friction": math.inf}
+        hit = col.eccentric(a, b, **contact)
+        known = {
+            f"delta_v_{way}_a": getattr(hit.a, f"delta_v_{way}") for way in ("forward", "left")
+        }
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            (found,) = speeds(
+                a, b, course_a=0.0, course_b=1.2, regime="sticking", **contact, **known
+            )
+        assert "negative_speed" not in {one.message.code for one in caught}
+        along = found.b.before.vx * math.cos(1.2) + found.b.before.vy * math.sin(1.2)
+        assert along == pytest.approx(0.0, abs=1e-12)
+        below += along < 0.0
+    assert below > 0
+
+
 # Restitution that depends on the closing speed
 
 

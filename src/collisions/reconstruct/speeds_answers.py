@@ -48,6 +48,8 @@ from .speeds_tyres import Attempt
 
 # Above this restitution hardly any energy is lost along the normal.
 _ELASTIC = 1.0 - 1e-6
+# Of the closing speed: a speed backwards by no more is 0 but for rounding.
+_ROUNDING = 1e-12
 # Why a contact that slid has no direction.
 EITHER_WAY = "both fit within the accuracy stated for recorders (reference.RECORDER_ACCURACY)"
 # Distances of two answers whose ratio is less: the fold, quadratic, is as near as the samples are
@@ -147,7 +149,7 @@ def answers_of(
         for label, speed in zip("AB", root[:2], strict=True):
             speed = np.where(impact.refused, np.nan, speed * scene.speed_unit)
             # One that is 0 to rounding goes neither way.
-            goes_back = np.less(speed, -ROOT_TOL * impact.closing_speed)
+            goes_back = np.less(speed, -_ROUNDING * impact.closing_speed)
             slowest = np.fmin.reduce(np.where(goes_back, speed, 0.0), axis=None, initial=0.0)
             backward, whose = min((backward, whose), (float(slowest), label))
             turned = turned | goes_back
