@@ -7,6 +7,7 @@ import re
 import sys
 import warnings
 from dataclasses import replace
+from operator import attrgetter
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ import pytest
 import collisions as col
 from collisions import reconstruct, uncertainty
 from collisions.derivation import explain
+from collisions.derivation.explain import IMPACT_ANSWERS
 from collisions.derivation.expressions import System
 from collisions.derivation.page import Page
 from collisions.derivation.symbols import Symbol
@@ -290,6 +292,39 @@ def equations(monkeypatch):
     for name in ("equation", "balance"):
         monkeypatch.setattr(Page, name, noted(getattr(Page, name)))
     return found
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_every_answer_has_an_equation(name, monkeypatch):
+    """Or a sentence that is checked like one; but not what was found backwards, and what a body of
+    infinite mass keeps.
+    """
+    impact, written = SCENES[name], []
+
+    def noted(write, sides):
+        def instead(page, caption, *arguments):
+            written.extend(side.value for side in sides(arguments))
+            return write(page, caption, *arguments)
+
+        return instead
+
+    for kind, sides in (
+        ("equation", lambda given: given[:2]),
+        ("balance", lambda given: given[:2]),
+        ("fact", lambda given: (left for left, _ in given)),
+    ):
+        monkeypatch.setattr(Page, kind, noted(getattr(Page, kind), sides))
+    table = explain(impact, form="text").split("\nAnswers\n")[1].splitlines()
+    printed = 0
+    for key, (of, what, _) in IMPACT_ANSWERS.items():
+        kept = ".after.v" in key and math.isinf(getattr(impact, key[0]).before.mass)
+        if ".before." in key or key == "restitution" or kept:
+            continue
+        if any(re.match(rf"{of} +{re.escape(what)}  ", line) for line in table):
+            value = attrgetter(key)(impact)
+            assert any(math.isclose(value, one, rel_tol=SAME, abs_tol=SAME) for one in written), key
+            printed += 1
+    assert printed >= 8
 
 
 def blocks(text):

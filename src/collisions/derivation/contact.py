@@ -488,6 +488,50 @@ def motions(page: Page, s: Symbols) -> None:
             _delta_v(page, s, body)
         _pdof(page, s, body)
         _speed_and_course(page, body)
+        if s.impact.model in PLACED and math.isfinite(body.start.yaw_inertia or math.inf):
+            page.equation(
+                f"Change of the yaw rate of {body.label} (definition)",
+                body.spin_change(),
+                body.spin(AFTER) - body.spin(),
+            )
+
+
+def impulse_and_energy(page: Page, s: Symbols) -> None:
+    """The impulse ratio and the energy absorbed, which the steps before need not have had."""
+    page.heading("Impulse ratio and energy absorbed")
+    if s.impact.model != "linear_central" and s.normal.value != 0.0:
+        page.equation("Impulse ratio (definition)", s.ratio, s.tangential / s.normal)
+    if s.impact.pulse is not None:
+        page.say(
+            "The separation speed and the energy absorbed are of the last step and of that of "
+            f"deepest engagement: {page.shown(s.separation)}, {page.shown(s.absorbed)}."
+        )
+    elif not s.impact.complete:
+        page.fact(
+            "The contact ends before the end of compression, so the energy absorbed is that lost "
+            f"along the normal: {page.shown(s.absorbed)}.",
+            (s.absorbed, s.loss_n),
+        )
+    elif s.law.followed and s.impact.inputs.pushed:
+        # An impulse from outside does work along the normal too.
+        page.say(
+            "Energy absorbed along the normal by the end of compression, by the same contact "
+            f"followed until then: {page.shown(s.absorbed)}."
+        )
+    elif s.law.followed:
+        page.balance(
+            "Energy absorbed along the normal by the end of compression, of which the part e "
+            "squared is given back",
+            (1.0 - s.e.squared()) * s.absorbed,
+            s.loss_n,
+            "energy",
+        )
+    else:
+        page.equation(
+            "Energy absorbed along the normal by the end of compression",
+            s.absorbed,
+            HALF * s.closing * s.compression,
+        )
 
 
 def _delta_v(page: Page, s: Symbols, body: Body) -> None:

@@ -28,7 +28,7 @@ from ..scene.run import Run
 from ..uncertainty.distributions import Interval
 from ..uncertainty.result import Output, Propagation, ends_of, varies
 from ..vehicle.vehicle import Vehicle, named
-from .contact import motions, normal
+from .contact import impulse_and_energy, motions, normal
 from .evidence import MOMENTUM_ANSWERS, fit, momentum
 from .expressions import System
 from .models import eccentric, linear, oblique, time_resolved
@@ -317,6 +317,7 @@ def _impact(page: Page, impact: Impact) -> None:
     state_before(page, s)
     _MODELS[impact.model](page, s)
     motions(page, s)
+    impulse_and_energy(page, s)
     page.heading("Answers")
     page.table(impact_answers(page, impact))
 

@@ -45,10 +45,13 @@ def linear(page: Page, s: Symbols) -> None:
             if not body.fixed:
                 found = body.straight().plus(body.sign, s.normal / body.mass)
                 page.equation(f"Velocity of {body.label} after", body.straight(AFTER), found)
-    elif a.fixed or b.fixed:
-        _against_fixed(page, s)
     else:
-        _between_free(page, s)
+        if a.fixed or b.fixed:
+            _against_fixed(page, s)
+        else:
+            _between_free(page, s)
+        page.equation("Normal impulse, of both periods", s.normal, s.compression + s.restitution)
+    page.equation("Separation speed", s.separation, after_b - after_a)
     page.equation(
         "Check: restitution from the velocities, as in (9)", e, (after_b - after_a) / (v_a - v_b)
     )
@@ -156,6 +159,7 @@ def oblique(page: Page, s: Symbols) -> None:
     for body in s.bodies:
         caption = f"Velocity of {body.label} after, along the normal"
         velocity_after(page, body, s, [(caption, BEFORE, AFTER, s.normal)])
+    page.equation("Separation speed", s.separation, s.relative("n", AFTER))
     page.equation("Check: restitution (9)", s.e, -(s.relative("n", AFTER) / s.relative("n")))
     page.equation("Slip after", s.slip_after, s.relative("t", AFTER))
     energy(page, s)
@@ -559,13 +563,11 @@ def _moments_about_pivot(page: Page, s: Symbols, levers: Sequence[Lever]) -> Non
 def _restitution(page: Page, s: Symbols, levers: tuple[Lever, Lever]) -> None:
     """Write the restitution at the contact, from both bodies and from one."""
     a, b = levers
-    closing = a.along("n", contact=True) - b.along("n", contact=True)
+    page.equation("Separation speed", s.separation, s.relative("n", AFTER, True))
     if s.law.followed:
-        page.equation("Separation speed", s.separation, s.relative("n", AFTER, True))
         return
-    page.balance(
-        "Restitution at the contact (11)", s.relative("n", AFTER, True), s.e * closing, "speed"
-    )
+    closing = a.along("n", contact=True) - b.along("n", contact=True)
+    page.balance("Restitution at the contact (11)", s.separation, s.e * closing, "speed")
     if s.impact.inputs.pushed or not s.impact.complete:
         return
     # From the body that changes more; if they are equal, max takes A.

@@ -482,11 +482,9 @@ def _speeds(page: Page, s: Symbols, known: tuple[str, ...]) -> None:
                 f"{page.shown(s.loss)}."
             )
     if "max_crush_speed_a" in known:
-        absorbed = Symbol("E_c", s.impact.energy_absorbed, "energy")
-        page.equation(
-            "Energy of both speeds of maximum crush, known, absorbed along the normal",
-            absorbed,
-            HALF * s.closing * s.compression,
+        page.say(
+            "Energy of both speeds of maximum crush, known, which is absorbed along the normal: "
+            f"{page.shown(s.absorbed)}."
         )
 
 

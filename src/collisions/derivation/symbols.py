@@ -211,6 +211,12 @@ class Body:
             rf"\omega_{self.label}{mark}", self.state(when).yaw_rate, "yaw rate", size=size
         )
 
+    def spin_change(self) -> Symbol:
+        """The change of its yaw rate."""
+        _, size = self._largest
+        value = self.side.delta_yaw_rate
+        return Symbol(rf"\Delta \omega_{self.label}", value, "yaw rate", size=size)
+
     def delta_v(self, axis: str = "") -> Symbol:
         """A component of its delta-V in scene axes, or its magnitude if no axis is named."""
         return delta_v(self.label, axis, getattr(self.side, f"delta_v{axis}"))
@@ -236,6 +242,7 @@ class Symbols:
         self.ratio = Symbol(r"\mu_P", impact.impulse_ratio, "number")
         self.loss = Symbol(r"\Delta E", impact.energy_loss, "energy")
         self.loss_n = Symbol(r"\Delta E_n", impact.energy_loss_normal, "energy")
+        self.absorbed = Symbol("E_c", impact.energy_absorbed, "energy")
         self.loss_t = Symbol(r"\Delta E_t", impact.energy_loss_tangential, "energy")
         self.nx, self.ny = (
             Symbol(f"n_{axis}", part, "number")
