@@ -502,6 +502,29 @@ def test_a_file_has_its_delta_v(tmp_path):
         assert caught.value.fields["argument"] == name
 
 
+@pytest.mark.parametrize(
+    ("left", "bound"),
+    [
+        ([0.0, 2.0, 5.0, 6.0, 5.0, 3.5, 2.0], None),  # on its way back
+        ([0.0, 0.0, 0.0, 0.1, 0.2, 0.3, 0.49], None),  # within half a km/h of 0
+        ([0.0, -2.0, -2.5, -2.0, -1.0, 1.0, 2.4], None),  # greater before, to the other side
+        ([0.0, 0.0, 0.0, 0.1, 0.2, 0.3, 0.51], 0.51),
+        ([0.0, 2.0, 5.0, 6.0, 7.0, 7.0, 7.0], 7.0),
+    ],
+)
+def test_a_component_that_does_not_grow_when_a_record_stops_is_no_bound(left, bound):
+    """It need not have gone on to be as much."""
+    ahead = np.array([0.0, -3.0, -7.0, -12.0, -17.0, -22.0, -27.0]) * KMH
+    time = 0.01 * np.arange(7)
+    with pytest.warns(col.OutOfRangeWarning, match="a lower bound"):
+        pulse = recorded_pulse(time, ahead, np.array(left) * KMH, polarity="ISO 8855")
+    assert pulse.evidence[0].high == pulse.delta_v_forward
+    assert (pulse.evidence[1] and pulse.evidence[1].low) == (bound and pytest.approx(bound * KMH))
+    with pytest.warns(col.OutOfRangeWarning):
+        mirrored = recorded_pulse(time, ahead, np.array(left) * KMH, polarity="49 CFR 563")
+    assert (mirrored.evidence[1] is None) == (bound is None)
+
+
 def test_a_cut_record_of_exactly_0_says_nothing_of_the_side():
     """A bound at 0 would assert one of the sides."""
     time = TIME[TIME <= 0.0601]

@@ -99,11 +99,13 @@ class RecordedPulse(Shown):
     def evidence(self) -> tuple[Normal | Censored | None, Normal | Censored | None]:
         """Forward and left components as observations for ``posterior``, with errors.
 
-        They are bounds if the pulse is cut short. None stands for a component that was not
-        recorded, and for one of exactly 0 in a pulse cut short, as it does not say to which side
-        it went on.
+        They are bounds if the pulse is cut short, and taken to go on growing from there. None
+        stands for a component that was not recorded, and in a pulse cut short for one that does
+        not grow: that is within its error of 0, so that it does not say to which side it went on,
+        or was greater before.
         """
-        return _evidence(self.delta_v_forward, self.ended), _evidence(self.delta_v_left, self.ended)
+        ahead, aside = (self.delta_v_forward, self.forward), (self.delta_v_left, self.left)
+        return _evidence(*ahead, self.ended), _evidence(*aside, self.ended)
 
     def _summary(self, numbers: Cells) -> Summary:
         values = {
@@ -396,12 +398,14 @@ def _error(value: float) -> float:
     return max(RECORDER_ACCURACY.high * abs(value), 0.5 * RECORDER_RESOLUTION.high)
 
 
-def _evidence(value: float | None, ended: bool) -> Normal | Censored | None:
-    """The reading with the standard deviation of its range; a bound where the record stops early.
-
-    Beyond that bound it went on. One of exactly 0 does not say to which side: it is no evidence.
+def _evidence(value: float | None, samples: Any, ended: bool) -> Normal | Censored | None:
+    """The reading with the standard deviation of its range; a bound where the record stops early
+    while it grows.
     """
-    if value is None or (value == 0.0 and not ended):
+    if value is None:
+        return None
+    grows = abs(value) > _error(value) and abs(value) == np.max(abs(samples))
+    if not (ended or grows):
         return None
     error = _error(value) / math.sqrt(3.0)
     if ended:
