@@ -388,6 +388,53 @@ def test_what_was_asked_in_other_ways_is_found_again():
 
 
 @pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+@pytest.mark.parametrize(
+    ("courses", "masses", "inertias", "both", "normal"),
+    [
+        (("15 deg", "99 deg"), (1408, 1402), (1994, 2916), (20.0, 14.0), "12 deg"),
+        (("-17 deg", "67 deg"), (1962, 1324), (2050, 3058), (14.0, 14.0), "-13 deg"),
+    ],
+)
+def test_one_that_just_sticks_or_just_slides_is_found_again(
+    courses, masses, inertias, both, normal
+):
+    """Exact readings beside a known speed: degrees, which a record has in radians, are rounded, and
+    that decides which of two conditions the answer has; one that was changed is refused.
+    """
+    places = ((-2.0, 0.2), (1.0, -1.0))
+    before = [
+        col.Vehicle.from_speed(
+            mass=mass, yaw_inertia=inertia, x=x, y=y, heading=course, speed=speed, course=course
+        )
+        for course, mass, inertia, speed, (x, y) in zip(
+            courses, masses, inertias, both, places, strict=True
+        )
+    ]
+    contact = {"restitution": 0.1, "normal": normal, "point": (0.0, 0.2)}
+    hit = col.eccentric(*before, friction=0.9, **contact)
+    assert hit.regime == "sticking"
+    known = {f"delta_v_{way}_a": getattr(hit.a, f"delta_v_{way}") for way in ("forward", "left")}
+    with pytest.raises(col.AmbiguousSolutionError) as refused:
+        reconstruct.speeds(
+            *before, course_a=courses[0], course_b=courses[1], speed_a=both[0], friction=math.inf,
+            **contact, **known,
+        )  # fmt: skip
+    assert len(refused.value.solutions) == 2
+    for one in refused.value.solutions:
+        page = report(one, form="markdown", figures=False)
+        assert replay(page) == one
+        for factor in (1.5, 0.5):
+            changed = tampered(
+                page,
+                lambda record, one=one, factor=factor: record["impact"]["results"][
+                    "reconstruction"
+                ].update(condition=factor * one.reconstruction.condition),
+            )
+            with pytest.raises(col.InputError, match="give a condition of"):
+                replay(changed)
+
+
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
 def test_an_energy_that_sticking_does_not_lose_is_found_again():
     """Within what components may differ by."""
     end = col.eccentric(A, B, 0.1, **PLACE | {"friction": 2.0})

@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import replace
 from operator import attrgetter
 from typing import Any, get_args
 
@@ -24,6 +25,8 @@ from .speeds_components import ACCURACY, COMPONENTS
 # What is worked out from an answer that was rounded differs in its later digits; a changed record
 # differs in its first ones.
 _SAME_CONDITION = 0.01
+# More than the rounding of angles in degrees, which a record has in radians.
+_TIE = 1e-12
 _APART = {
     "recorders_differ": ("their best common answer", "one of them, a course or the geometry"),
     "friction_differs": (
@@ -91,8 +94,7 @@ def contradicted_origin(impact: Impact) -> Iterator[str]:
             f"{', '.join(origin.found) or 'nothing'}"
         )
     # A function adds to the condition how steep it is.
-    same = by_function or math.isclose(again.condition, origin.condition, rel_tol=_SAME_CONDITION)
-    if not same:
+    if not (by_function or _same_condition(again, origin) or _at_a_tie(impact, origin)):
         yield (
             f"its inputs give a condition of {again.condition:.6g}, and it says "
             f"{origin.condition:.6g}"
@@ -127,6 +129,25 @@ def contradicted_origin(impact: Impact) -> Iterator[str]:
             f"its inputs leave the speeds known by {again.one_sided or 'both sides'}, and it says "
             f"{origin.one_sided or 'both sides'}"
         )
+
+
+def _same_condition(one: Reconstruction, other: Reconstruction) -> bool:
+    return math.isclose(one.condition, other.condition, rel_tol=_SAME_CONDITION)
+
+
+def _at_a_tie(impact: Impact, origin: Reconstruction) -> bool:
+    """Whether rounding of the components of delta-V decides which condition an answer has: one that
+    just sticks is also one that just slides, and each has its own.
+    """
+    for more in (1.0 + _TIE, 1.0 - _TIE):
+        nudged = {
+            name: value * more if "_forward_" in name else value
+            for name, value in origin.given.items()
+        }
+        again = _again(impact, replace(origin, given=nudged))
+        if again is not None and _same_condition(again, origin):
+            return True
+    return False
 
 
 def _along_axes(name: str) -> str:
