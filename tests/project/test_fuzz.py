@@ -214,9 +214,11 @@ def look_at_impact(impact: col.Impact) -> None:
     shape, refused = status.shape, status > col.Status.ENERGY_GAIN
     assert np.array_equal(np.asarray(impact.refused), refused)
     assert np.array_equal(np.asarray(impact.ok), status == col.Status.OK)
+    # A closing speed far below both speeds may have been given backwards.
     tame = modest(
-        impact.a.before, impact.b.before, impact.point, impact.normal, impact.inputs.rule_value
-    )
+        impact.a.before, impact.b.before, impact.closing_speed, impact.point, impact.normal,
+        impact.inputs.rule_value,
+    )  # fmt: skip
 
     def look(label: str, owner: Any, name: str) -> None:
         value = must_answer(label, lambda: getattr(owner, name))
