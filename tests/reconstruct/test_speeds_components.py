@@ -710,6 +710,29 @@ def test_a_lateral_sign_that_must_be_wrong_is_named(labels):
     assert found.a.before.speed == pytest.approx(9.0)
 
 
+@pytest.mark.parametrize(
+    ("left", "said"), [(-1.0, True), ([-1.0, -0.9, 1.1], True), ([-1.0, 0.9, 1.1], False)]
+)
+def test_a_lateral_sign_is_named_where_most_cases_go_backwards(left, said):
+    """Also in a batch, and in a study of such readings."""
+    a = A.replace(y=0.0, heading=0.0)
+    b = A.replace(x=2.0, y=0.3, heading=1.57)
+    known = {"course_a": 0.0, "course_b": 1.57, "restitution": 0.1, "normal": 0.0}
+    known |= {"point": (0.0, 0.0), "friction": 0.5, "delta_v_forward_a": -6.0}
+    many = np.array(left) if isinstance(left, list) else left
+    with pytest.warns(col.OutOfRangeWarning, match="backwards along its course") as caught:
+        speeds(a, b, delta_v_left_a=many, **known)
+    assert (
+        "With delta_v_left_a of the other sign both go forwards" in str(caught[0].message)
+    ) == said
+    if not isinstance(left, list):
+        with pytest.warns(col.CollisionsWarning, match="With delta_v_left_a of the other sign"):
+            propagate(
+                lambda left: {"b": speeds(a, b, delta_v_left_a=left, **known)[0].b.before.speed},
+                {"left": Normal(left, 0.1)}, samples=64, seed=1,
+            )  # fmt: skip
+
+
 def test_no_sign_is_named_where_none_helps():
     known = of_a_crash(forward_b=-1.0)
     with pytest.raises(col.NoSolutionError) as refused:

@@ -234,6 +234,18 @@ def test_a_result_that_is_none_names_the_nearest(path: Any, near: str) -> None:
         in_line().as_model(["A.vq"], ["end"])
 
 
+def test_anything_may_stand_where_a_path_is_wanted() -> None:
+    """What cannot be written is named by its kind."""
+
+    class Mute:
+        def __repr__(self) -> str:
+            raise RuntimeError("no")
+
+    for path in (Mute(), 10**5000, ["A.vx", Mute()]):
+        with pytest.raises(col.InputError, match=r"has no a (Mute|int|list); near it are"):
+            in_line().as_model([path], ["end"])
+
+
 @pytest.mark.parametrize(
     ("path", "code", "says"),
     [

@@ -408,6 +408,14 @@ SCENE_REFUSALS = [
         "bad_outline",
         "surfaces[0] encloses no area; give its corners",
     ),
+    # Of which no product is a number.
+    (
+        {"surfaces": [([(1.9e33, 2.5), (5.0, -3.5), (-1e308, 3.1), (0.0, -1.5)], 0.2)]},
+        InputError,
+        "bad_outline",
+        "surfaces[0] encloses no area; give its corners",
+    ),
+    ({"slope": (1e200, 0.0)}, InputError, "out_of_range", "slope[0] must be between -100 and 100"),
     ({"surfaces": [(AREA, -0.3)]}, InputError, "bad_friction", "surfaces[0] must be >= 0, got"),
     # The order.
     (

@@ -12,6 +12,7 @@ import pytest
 import collisions as col
 from collisions import travel
 from collisions.uncertainty import (
+    Censored,
     Interval,
     LogNormal,
     Normal,
@@ -171,7 +172,6 @@ def test_nothing_uncertain():
     for method in ("first_order", "quasi_random"):
         for value, advice in (
             (1.0, r"write Normal\(mean, sd\)"),
-            (OneSided(1.0, 1), r"write Normal\(mean, sd\)"),
             (Interval(0.0, 1.0), "of intervals alone take method='interval'"),
         ):
             with pytest.raises(
@@ -182,6 +182,22 @@ def test_nothing_uncertain():
     with pytest.raises(col.InputError, match="needs an input with bounds") as caught:
         propagate(lambda x: {"y": x}, {"x": 1.0}, method="interval")
     assert caught.value.code == "nothing_uncertain"
+
+
+@pytest.mark.parametrize(
+    ("value", "said"),
+    [
+        (Censored(low="28 km/h", error="1 km/h"), "x is a reading with a bound"),
+        (OneSided(1.0, 1), "x is an output that is known from one side only"),
+    ],
+)
+@pytest.mark.parametrize("beside", [{}, {"z": Normal(0.0, 1.0)}, {"z": Interval(0.0, 1.0)}])
+@pytest.mark.parametrize("method", ["first_order", "quasi_random", "interval"])
+def test_what_is_known_from_one_side_is_no_input(value, said, beside, method):
+    """Alone and beside others; the model is not called with it."""
+    with pytest.raises(col.InputError, match=said) as caught:
+        propagate(lambda x, z=0.0: {"y": x + z}, {"x": value, **beside}, method=method)
+    assert caught.value.code == "bad_inputs"
 
 
 def test_an_interval_knows_no_correlation():

@@ -145,8 +145,9 @@ def posterior(
         answer.
 
     What this library warned of while the model worked is counted over the samples. Of fewer than
-    0.5 percent of them it is not raised and stands in ``statements`` alone. Other warnings that the
-    model gives go where warnings go, and are counted nowhere.
+    0.5 percent of them (95 percent where it is that readings differ) it is not raised and stands in
+    ``statements`` alone. Other warnings that the model gives go where warnings go, and are counted
+    nowhere.
 
     Examples
     --------

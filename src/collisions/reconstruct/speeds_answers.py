@@ -64,7 +64,7 @@ class Ways(NamedTuple):
     """
 
     again: Callable[..., tuple[Impact, ...]]
-    turned: Callable[[], str]
+    turned: Callable[..., str]
     one_way: Callable[[float], tuple[Impact, ...]]
 
 
@@ -172,12 +172,17 @@ def answers_of(
             f"the speed of {whose} came out as {said(backward, 'speed', given_texts(impacts[0]))}: "
             f"{cure}"
         )
-        if wrong := ways.turned() if cases.shape is None else "":
-            text += f". With {wrong} of the other sign both go forwards: {LATERAL}"
+        # A wrong sign has most cases of a batch go backwards, and takes time to be looked for.
+        likely = isinstance(scene, ComponentScene) and np.mean(turned) > 0.5
+        advice = ""
+        if wrong := ways.turned(turned) if likely else "":
+            these = "" if cases.shape is None else " in most of these cases"
+            advice = f". With {wrong} of the other sign both go forwards{these}: {LATERAL}"
         warning = OutOfRangeWarning(
-            cases.how_many(turned) + text, code="negative_speed", value=backward
+            cases.how_many(turned) + text + advice, code="negative_speed", value=backward
         )
-        warn_of_cases(warning, {f"a speed comes out below 0, {cure}": cases.each(turned)})
+        said_of_study = f"a speed comes out below 0, {cure}{advice}"
+        warn_of_cases(warning, {said_of_study: cases.each(turned)})
     return tuple(impacts)
 
 

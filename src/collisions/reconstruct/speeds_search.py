@@ -126,19 +126,26 @@ class Search:
         own = {**self.texts, **(found.inputs.given or {})}
         return found._replace(inputs=replace(found.inputs, given=own))
 
-    def turned(self) -> str:
-        """What a single case may have wrong: the lateral components with whose signs turned both
-        vehicles go forwards; "" for none.
+    def turned(self, where: Any = True) -> str:
+        """What a single case, or these of a batch, may have wrong: the lateral components with
+        whose signs turned both vehicles go forwards, in most of them; "" for none.
         """
         lateral = [name for name in self.known if name.startswith("delta_v_left")]
         best, said_of = math.inf, ""
         for names in (names for n in (1, 2) for names in combinations(lateral, n)):
             scene, found, *_ = self.solved({name: -self.known[name] for name in names})
             assert isinstance(scene, ComponentScene)
-            answer = found[0][0][:2] if found else scene.answer
-            fits = (bool(found) or bool(np.any(scene.ambiguous))) and min(answer) >= 0.0
-            if fits and scene.misfit < best:
-                best, said_of = float(scene.misfit), " and ".join(names)
+            answers = [
+                (root[:2], there) for root, there in found[: 1 if scene.shape == () else None]
+            ]
+            ahead: Any = False
+            with np.errstate(all="ignore"):
+                for both, there in answers or [(scene.answer, scene.ambiguous)]:
+                    ahead = ahead | (there & (np.minimum(*both) >= 0.0))
+            of_these = np.broadcast_arrays(ahead, scene.misfit, where)
+            ahead, misfit = (one[of_these[2]] for one in of_these[:2])
+            if np.mean(ahead) > 0.5 and np.median(misfit[ahead]) < best:
+                best, said_of = float(np.median(misfit[ahead])), " and ".join(names)
         return said_of
 
     def _attempt(self, held: dict[str, Any], most: float, only: Mapping[str, Any]) -> Attempt:

@@ -17,6 +17,7 @@ from ..messages.errors import CollisionsError, InputError, placed
 from ..quantities.directions import direction
 from ..quantities.reading import ArgumentReader, at_least_zero
 from ..quantities.refusals import must_be
+from ..quantities.units import rendered
 from ..vehicle.tyres import LOCKS, as_given
 from ..vehicle.vehicle import UNITS as OF_VEHICLE
 from ..vehicle.vehicle import Vehicle
@@ -121,10 +122,11 @@ def no_path(path: Any, known: Iterable[str], argument: str, instead: str = "") -
     """The error for a path that is none, with what is meant, or else the nearest ones."""
     if not instead:
         listed = list(known)
-        near = get_close_matches(str(path), listed, _MOST_NEAR, 0.5) or listed[:_MOST_NEAR]
+        written = path if isinstance(path, str) else ""
+        near = get_close_matches(written, listed, _MOST_NEAR, 0.5) or listed[:_MOST_NEAR]
         instead = f"near it are {', '.join(near)}"
     return InputError(
-        f"{argument} has no {path!r}; {instead}", code="unknown_name", argument=argument
+        f"{argument} has no {rendered(path)}; {instead}", code="unknown_name", argument=argument
     )
 
 

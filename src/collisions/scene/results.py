@@ -503,7 +503,9 @@ def whole_impact(run: Run, number: int) -> Impact:
     ((hit, some),) = hits
 
     def spread(value: Any) -> Any:
-        whole = np.full(count, np.nan)
+        # Numbers of models and flags have no NaN; where there is no impact, no number has a value.
+        kind = np.asarray(value).dtype
+        whole = np.zeros(count, kind) if kind.kind in "bu" else np.full(count, np.nan)
         whole[hit.which[some]] = np.broadcast_to(value, len(hit.which))[some]
         return whole
 

@@ -19,6 +19,7 @@ from ..quantities.settings import Default
 from ..quantities.tables import Cells, Part, Summary, all_numbers, given_texts
 from ..quantities.units import Input, Pair, Texts, Value, shown, texts_of
 from ..travel.corners import read_areas
+from ..travel.surfaces import read_slope
 from ..vehicle.vehicle import numbers_of
 from .contact import Contact
 from .mover import Mover
@@ -59,11 +60,12 @@ class Scene(Shown):
         with tyres. The first that a wheel is in counts. An area may have dents; sides that cross
         are refused.
     slope : pair of float, str, Quantity or array [-]
-        Rise over run of the ground along x and along y, for movers with tyres or a drag. Places are
-        in plan, speeds and times along the ground, as in ``travel.simulate``. While a contact with
-        a duration lasts it pulls both vehicles alike, by 0.1 m/s in 0.1 s on a slope of 10 %; a
-        contact without one takes no time. A mover with a drag goes straight on also across a slope,
-        which would bend the way of a sliding one: by 1 m of 14 m at 10 %. Give it tyres there.
+        Rise over run of the ground along x and along y, from -100 to 100, for movers with tyres or
+        a drag. Places are in plan, speeds and times along the ground, as in ``travel.simulate``.
+        While a contact with a duration lasts it pulls both vehicles alike, by 0.1 m/s in 0.1 s on a
+        slope of 10 %; a contact without one takes no time. A mover with a drag goes straight on
+        also across a slope, which would bend the way of a sliding one: by 1 m of 14 m at 10 %. Give
+        it tyres there.
     order : list of pairs of names, optional
         The order of the contacts that an account claims, such as ``[("A", "B"), ("B", "C")]``. A
         case that goes otherwise is refused, with the order that it takes.
@@ -76,6 +78,11 @@ class Scene(Shown):
     ------
     InputError
         Naming every argument that cannot be used.
+
+    Warns
+    -----
+    SuspectUnitsWarning
+        A part of the slope without a unit beyond 0.5, which is probably in percent.
 
     Examples
     --------
@@ -127,7 +134,7 @@ class Scene(Shown):
         named = [*movers] if isinstance(movers, Mapping) else []
         found["contacts"] = _read_contacts(reader, contacts, found["movers"], named)
         found["surfaces"] = () if surfaces is None else tuple(read_areas(reader, surfaces))
-        found["slope"] = reader.pair(slope, "", "slope")
+        found["slope"] = read_slope(reader, slope)
         found["order"] = _read_order(reader, order, found["movers"], found["contacts"])
         found["shared"] = MappingProxyType(_read_shared(reader, shared, found["movers"]))
         reader.close()

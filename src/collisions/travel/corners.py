@@ -62,6 +62,9 @@ def _no_area(corners: tuple[Place, ...]) -> str:
     """
     if not all(math.isfinite(part) for place in corners for part in place):
         return ""  # refused by its number
+    # In a unit of about its size, a power of two, which changes no digit: no product overflows.
+    _, power = math.frexp(max(abs(part) for place in corners for part in place))
+    corners = tuple((math.ldexp(x, -power), math.ldexp(y, -power)) for x, y in corners)
     count = len(corners)
     sides = [(i, (i + 1) % count) for i in range(count)]
     for one, other in combinations(sides, 2):
@@ -75,9 +78,9 @@ def _no_area(corners: tuple[Place, ...]) -> str:
     for place in dict.fromkeys(corners):
         for one, other in combinations(_through(corners, place), 2):
             if _interleaved(place, *(corners[i] for i in (*one, *other))):
+                x, y = (math.ldexp(part, power) for part in place)
                 return (
-                    f"has sides that cross at ({place[0]:g}, {place[1]:g}) m, from corner "
-                    f"{_listed(one, other)}"
+                    f"has sides that cross at ({x:g}, {y:g}) m, from corner {_listed(one, other)}"
                 )
     (x0, y0), ahead = corners[0], (*corners[1:], corners[0])
     area = 0.5 * abs(

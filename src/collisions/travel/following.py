@@ -76,7 +76,9 @@ class Following:
             inside &= scaled[left] >= piece.rows[0, piece.first[place]]
             some, left = left[inside], left[~inside]
             if len(some):
-                found[:, some] = self._within(piece, scaled[some], cases[some], place[inside])
+                # What leaves the range of floats is no number then, which is refused.
+                with np.errstate(all="ignore"):
+                    found[:, some] = self._within(piece, scaled[some], cases[some], place[inside])
             if not len(left):
                 break
         return found

@@ -28,7 +28,7 @@ from ..vehicle.vehicle import NAMES, UNITS, Vehicle, needed, not_a_vehicle, vehi
 from .areas import Areas
 from .corners import read_areas
 from .motion import GOES_ON, IN_TIME, RESTS, ROWS, Motion, between, follow, went_on
-from .surfaces import out_of_range, settle
+from .surfaces import out_of_range, read_slope, settle
 
 # Cases that are followed together: few calls of numpy, and memory that is kept small.
 _BLOCK = 2048
@@ -243,7 +243,7 @@ def simulate(
         that a wheel is in counts. An area may have dents; sides that cross are refused.
     slope : pair of float, str, Quantity or array [-]
         Rise over run of the ground along x and along y of the scene: (0.05, 0) if it rises by 5 %
-        in the direction of x.
+        in the direction of x; from -100 to 100.
     rotating_mass : float, str, Quantity or array [-]
         What the rotation of the wheels adds to the mass that has to be slowed, as a fraction of it:
         four times the moment of inertia of a wheel, over the square of its radius and the mass.
@@ -338,7 +338,7 @@ def simulate(
         (np.array(corners), mu)
         for corners, mu in ([] if surfaces is None else read_areas(reader, surfaces))
     ]
-    rises = reader.pair(slope, "", "slope")
+    rises = read_slope(reader, slope)
     rotating = one_value(reader, rotating_mass, "", "rotating_mass", UNIT_INTERVAL)
     ends = None if until is None else one_value(reader, until, "s", "until", POSITIVE_FINITE)
     if not is_whole(moments) or not 2 <= moments <= _MOST_MOMENTS:

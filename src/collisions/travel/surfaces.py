@@ -21,6 +21,7 @@ from ..messages.errors import (
 from ..messages.warning import warn_of_cases
 from ..quantities.attributes import hypot, math_or_numpy, read_only
 from ..quantities.reading import ArgumentReader, at_least_zero, broadcast, warn_if_large, widened
+from ..quantities.refusals import must_be
 from ..quantities.tables import Sentences
 from ..quantities.units import Input
 from ..vehicle.drag import GRAVITY, one_value
@@ -30,6 +31,8 @@ _Reader: TypeAlias = Callable[[ArgumentReader, Any, str], Any]
 
 # No road is steeper: beyond, a bare number is in another unit.
 _STEEPEST_GRADE = 0.5
+# Nothing drives on ground that is nearly upright.
+_STEEPEST = 100.0
 # Refusal codes of negative single numbers by argument; the elements of arrays are checked here.
 _BELOW_ZERO = {
     "distance": "negative_distance",
@@ -95,6 +98,20 @@ def read_grade(reader: ArgumentReader, value: Any, name: str) -> Any:
     read = one_value(reader, value, "", name)
     warn_if_large(value, read, _STEEPEST_GRADE, name, "the rise over the run", "%")
     return read
+
+
+def read_slope(reader: ArgumentReader, value: Any) -> tuple[Any, Any]:
+    """The rises over the run along x and y, with a warning as for a grade."""
+    rises = reader.pair(value, "", "slope")
+    for i, read in enumerate(rises):
+        given = value[i] if isinstance(value, (tuple, list)) else value
+        name = f"slope[{i}]"
+        if np.any(np.abs(read) > _STEEPEST):
+            text = f"between -{_STEEPEST:g} and {_STEEPEST:g}, the rise over the run"
+            reader.refuse(must_be(name, text, given, code="out_of_range"))
+        else:
+            warn_if_large(given, read, _STEEPEST_GRADE, name, "the rise over the run", "%")
+    return rises
 
 
 def in_one_precision(
