@@ -327,6 +327,36 @@ def test_every_answer_has_an_equation(name, monkeypatch):
     assert printed >= 8
 
 
+@pytest.mark.parametrize(
+    ("impact", "said"),
+    [
+        (
+            lambda: crossroads(friction=0.05, law="stronge"),
+            "of which the part e squared is given back:",
+        ),
+        (
+            lambda: crossroads(friction=0.05, law="stronge", outside_a=(50.0, 0.0, 0.0)),
+            "by the same contact followed until then: E_c = {}.",
+        ),
+        (
+            lambda: crossroads(e=-0.3, incomplete=True, friction=0.1),
+            "so the energy absorbed is that lost along the normal: E_c = {}.",
+        ),
+        (
+            lambda: crossroads(col.time_resolved, duration=0.1, drag=0.4, friction=0.8),
+            "are of the last step and of that of deepest engagement: r = {1}, E_c = {}.",
+        ),
+    ],
+)
+def test_the_energy_absorbed_is_told_in_every_law(impact, said):
+    """With its number, where it has no formula."""
+    impact = impact()
+    text = " ".join(explain(impact, form="text").split())
+    energy = f"{impact.energy_absorbed:.0f} J"
+    speed = f"{impact.separation_speed:.4g} m/s"
+    assert said.replace("{1}", speed).replace("{}", energy) in text
+
+
 def blocks(text):
     """The equations of a plain text: caption and lines."""
     for part in text.split("\n\n"):

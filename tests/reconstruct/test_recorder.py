@@ -510,6 +510,7 @@ def test_a_file_has_its_delta_v(tmp_path):
         ([0.0, -2.0, -2.5, -2.0, -1.0, 1.0, 2.4], None),  # greater before, to the other side
         ([0.0, 0.0, 0.0, 0.1, 0.2, 0.3, 0.51], 0.51),
         ([0.0, 2.0, 5.0, 6.0, 7.0, 7.0, 7.0], 7.0),
+        ([0.0, 2.0, 5.0, 6.0, 7.0, 7.1, 7.0], None),
     ],
 )
 def test_a_component_that_does_not_grow_when_a_record_stops_is_no_bound(left, bound):
@@ -523,6 +524,20 @@ def test_a_component_that_does_not_grow_when_a_record_stops_is_no_bound(left, bo
     with pytest.warns(col.OutOfRangeWarning):
         mirrored = recorded_pulse(time, ahead, np.array(left) * KMH, polarity="49 CFR 563")
     assert (mirrored.evidence[1] is None) == (bound is None)
+
+
+def test_a_bound_holds_from_the_total_to_the_end_of_the_record():
+    """The largest resultant need not be that of the last sample: what falls from there on is no
+    bound, and what grows on is one at the total.
+    """
+    ahead = np.array([0, -4, -9, -14, -18, -22, -25, -23]) * KMH
+    aside = np.array([0, 1, 2, 3, 4, 5, 6, 8]) * KMH
+    with pytest.warns(col.OutOfRangeWarning, match="a lower bound"):
+        pulse = recorded_pulse(0.01 * np.arange(8), ahead, aside, polarity="ISO 8855")
+    assert pulse.delta_v_forward == -25 * KMH
+    forward, left = pulse.evidence
+    assert forward is None
+    assert left.low == 6 * KMH
 
 
 def test_a_cut_record_of_exactly_0_says_nothing_of_the_side():

@@ -102,10 +102,14 @@ class RecordedPulse(Shown):
         They are bounds if the pulse is cut short, and taken to go on growing from there. None
         stands for a component that was not recorded, and in a pulse cut short for one that does
         not grow: that is within its error of 0, so that it does not say to which side it went on,
-        or was greater before.
+        or that was greater before, or is less in a later sample.
         """
-        ahead, aside = (self.delta_v_forward, self.forward), (self.delta_v_left, self.left)
-        return _evidence(*ahead, self.ended), _evidence(*aside, self.ended)
+        size = np.hypot(self.forward, 0.0 if self.left is None else self.left)
+        at, parts = int(np.argmax(size)), (self.forward, self.left)
+        forward, left = (
+            None if part is None else _evidence(part, at, self.ended) for part in parts
+        )
+        return forward, left
 
     def _summary(self, numbers: Cells) -> Summary:
         values = {
@@ -398,18 +402,19 @@ def _error(value: float) -> float:
     return max(RECORDER_ACCURACY.high * abs(value), 0.5 * RECORDER_RESOLUTION.high)
 
 
-def _evidence(value: float | None, samples: Any, ended: bool) -> Normal | Censored | None:
-    """The reading with the standard deviation of its range; a bound where the record stops early
-    while it grows.
+def _evidence(samples: Any, at: int, ended: bool) -> Normal | Censored | None:
+    """The reading at the largest resultant with the standard deviation of its range; a bound where
+    the record stops early while it grows.
     """
-    if value is None:
-        return None
-    grows = abs(value) > _error(value) and abs(value) == np.max(abs(samples))
-    if not (ended or grows):
-        return None
+    value = float(samples[at])
     error = _error(value) / math.sqrt(3.0)
     if ended:
         return Normal(value, error)
+    along = math.copysign(1.0, value) * samples
+    # Any noise counts: a component that is left out is safer than a bound that does not hold.
+    turned = np.any(abs(samples[:at]) > abs(value)) or np.any(along[at:] < along[at])
+    if abs(value) <= _error(value) or turned:
+        return None
     return Censored(low=value, error=error) if value > 0.0 else Censored(high=value, error=error)
 
 
