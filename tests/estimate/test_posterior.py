@@ -1275,3 +1275,28 @@ def test_units_that_are_required_are_required_of_readings(study):
     if study is posterior:
         with col.options(require_units=True), pytest.raises(col.UnitsError, match="require_units"):
             study(_halved, prior, {"dv": (5, 1)}, threads=2, **options)
+
+
+@pytest.mark.parametrize(("at", "error"), [(1e4, 0.01), (1e8, 1.0)])
+def test_what_no_prior_reaches_is_refused_soon(at, error):
+    """As the way there, at the rate of the first stages, would take thousands of them."""
+    calls = 0
+
+    def model(x):
+        nonlocal calls
+        calls += 1
+        return {"y": x}
+
+    with pytest.raises(col.NoSolutionError, match="the evidence contradicts the priors"):
+        posterior(model, {"x": Normal(0.0, 1.0)}, {"y": (at, error)}, samples=512, seed=1)
+    assert calls < 200
+
+
+@pytest.mark.filterwarnings("ignore:the evidence contradicts itself")
+def test_what_lies_ninety_deviations_off_is_reached():
+    """In closed form; the way there takes hundreds of stages."""
+    found = posterior(
+        lambda x: {"y": x}, {"x": Normal(0.0, 1.0)}, {"y": (90.0, 0.01)}, samples=512, seed=1
+    )
+    mean, deviation = 90.0 / (1.0 + 1e-4), 0.01 / math.sqrt(1.0 + 1e-4)
+    assert found["x"].mean == pytest.approx(mean, abs=deviation)

@@ -5,7 +5,7 @@ evidence.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, ClassVar, NamedTuple, TypeAlias
 
 import numpy as np
@@ -32,6 +32,10 @@ _NO_NEARER, _MOST_OF_THESE = (
 # Ordinary evidence takes 5 to 50 stages. A stage goes on by a quarter of a deviation of the prior
 # or more, so that these end at 100 deviations from its mean at least: no prior means that.
 _MOST_STAGES = 500
+# After so many stages the further way is judged by what the last ones gained: beyond reach is what
+# at that rate would take so many stages by its misfit, and so many by the power. Where evidence
+# contradicts itself the misfit stays, and the power rises fast.
+_JUDGED, _LAST_STAGES, _STAGES_BY_MISFIT, _STAGES_BY_POWER = 12, 6, 10_000, 100
 # where the rounding of a logarithm is no longer small against 1, and all points are as likely
 _MOST_MISFIT = 1e13
 _BISECTIONS = 40
@@ -116,10 +120,14 @@ class Islands:
         """From the prior to the posterior."""
         self._draw()
         self._meet_bounds()
+        # Of each stage the power and the misfit of the best point, in standard errors.
+        stages: list[tuple[float, float]] = []
         for _ in range(_MOST_STAGES):
-            if self.power == self.end:
+            if self.power == self.end or _beyond_reach(stages, self.end):
                 break
             self._raise_power()
+            best = float(np.max(self.likelihood))
+            stages.append((self.power, math.sqrt(max(-2.0 * best, 0.0))))
             report(self.power)
         if self.power < self.end or np.max(self.likelihood) < -_MOST_MISFIT:
             raise UnreachableError(0, 0.0)
@@ -320,3 +328,18 @@ def step_of(ratios: Any, most: float) -> tuple[float, Any, Any]:
             more = math.sqrt(low) * math.sqrt(high)
             low, high = (more, high) if effective(more) >= 0.5 else (low, more)
     return more, best, behind
+
+
+def _beyond_reach(stages: Sequence[tuple[float, float]], end: float) -> bool:
+    """Whether points that have come so far, by the power and the misfit of the best one after each
+    stage, would not get to the evidence.
+    """
+    if len(stages) < _JUDGED:
+        return False
+    (power, misfit), (last_power, last_misfit) = stages[-_LAST_STAGES - 1], stages[-1]
+    nearer = (misfit - last_misfit) / _LAST_STAGES
+    risen = math.log(last_power / power) / _LAST_STAGES
+    return (
+        last_misfit > _STAGES_BY_MISFIT * max(nearer, 0.0)
+        and math.log(end / last_power) > _STAGES_BY_POWER * risen
+    )
