@@ -1590,3 +1590,33 @@ def test_what_few_steps_correct_is_what_all_steps_find(monkeypatch):
     assert len(apart) > 30
     assert np.quantile(apart, 0.9) < 5e-3
     assert max(apart) < 0.02
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+def test_how_far_energies_are_off_at_a_restitution_of_one():
+    """Nothing may be lost along the normal then: what is, is the error that the docstring states,
+    of contacts without friction, which have the largest.
+    """
+    random, count = np.random.default_rng(1), 1500
+
+    def between(low, high):
+        return random.uniform(low, high, count)
+
+    a, b = (
+        col.Vehicle(
+            mass=between(900, 2500), yaw_inertia=between(1300, 4500), x=side * between(1.2, 2.2),
+            y=between(-0.8, 0.8), heading=0.0, vx=between(*along), vy=between(-6, 6),
+            yaw_rate=between(-1, 1),
+        )
+        for side, along in ((-1.0, (4, 22)), (1.0, (-10, 3)))
+    )  # fmt: skip
+    found = col.time_resolved(
+        a, b, 1.0, normal=between(-0.4, 0.4), point=(between(-0.2, 0.2), between(-0.5, 0.5)),
+        friction=0.0, duration=0.1, on_failure="nan",
+    )  # fmt: skip
+    answered = ~found.refused
+    assert np.mean(answered) > 0.95
+    off = abs(found.energy_loss_normal[answered]) / found.energy_absorbed[answered]
+    assert np.quantile(off, 0.9) < 3e-4
+    assert np.quantile(off, 0.99) < 2e-3

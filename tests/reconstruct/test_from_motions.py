@@ -320,8 +320,8 @@ BOTH = [reconstruct.restitution, reconstruct.friction]
             {"b_yaw_inertia": 1900.0},
             [
                 (
-                    "b_before.yaw_inertia = 1800 kg m2 and b_after.yaw_inertia = 1900 kg m2, 100 "
-                    "kg m2 apart"
+                    "b_before.yaw_inertia = 1800 kg·m² and b_after.yaw_inertia = 1900 kg·m², 100 "
+                    "kg·m² apart"
                 )
             ],
         ),

@@ -471,3 +471,13 @@ def test_membership_reads_units_and_refuses_what_is_no_number():
     for value in ("x", b"0.5", None, np.array([0.5, 0.6]), "0.5 m", True):
         with pytest.raises(col.InputError):
             operator.contains(reference.INTER_VEHICLE_FRICTION, value)
+
+
+def test_what_lies_outside_is_said_in_the_units_of_the_inputs():
+    """The range too."""
+    with pytest.warns(col.OutOfRangeWarning, match=r"closing_speed 36 mph .*, 2 mph to 15 mph"):
+        reference.restitution("36 mph")
+    with pytest.raises(col.InputError, match=r"mass 9300 lb, length 14 ft, .*1940 lb to 3576 lb"):
+        reference.yaw_inertia("9300 lb", length="14 ft", wheelbase="9 ft", outside="refuse")
+    with pytest.raises(col.InputError, match="wheelbase 10 ft is not below length 9 ft"):
+        reference.yaw_inertia("3000 lb", length="9 ft", wheelbase="10 ft")

@@ -503,9 +503,9 @@ def time_resolved(
     limit as the duration goes to 0. No tyre ever reverses the motion of its wheel, so tyres can
     only take energy away.
 
-    The energies err by about 2e-4 of the energy absorbed, at 100 steps. With a restitution of 1, at
-    which nothing may be lost along the normal, ``energy_loss`` may thus be a little below 0: ``ok``
-    is then False, with a warning.
+    At 100 steps the energies err by less than 3e-4 of the energy absorbed in nine of ten contacts,
+    and by less than 2e-3 in 99 of 100. With a restitution of 1, at which nothing may be lost along
+    the normal, ``energy_loss`` may thus be a little below 0: ``ok`` is then False, with a warning.
 
     The contact point and the normal are carried by the mean of both bodies, whatever their masses;
     but beside a fixed body (infinite mass and yaw inertia, as ``Vehicle.barrier()``) the other

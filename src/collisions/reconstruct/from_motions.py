@@ -28,7 +28,8 @@ from ..vehicle.vehicle import Vehicle, needed, not_a_vehicle, numbers_of, withou
 from .common import ASK_ALONE, NUMBERS, Cases, forward, input_faults
 
 _MISMATCH = 0.1  # of the impulse: more than measured yaw rates and speeds explain
-_UNCHANGED = {"mass": "kg", "yaw_inertia": "kg m2", "x": "m", "y": "m"}  # by an impulse
+# By an impulse, with the kind of each.
+_UNCHANGED = {"mass": "mass", "yaw_inertia": "inertia", "x": "length", "y": "length"}
 _SAME_BODY = 1e-9  # relative
 _ANY = Vehicle(mass=1.0)  # stands in for bodies that were checked before
 _STILL_APPROACH = (
@@ -271,7 +272,7 @@ def _observe(
         faults = [
             *input_faults(numbers),
             *(fault for body in bodies.values() for fault in _pivot_faults(body, cases.eps)),
-            *_changed_bodies(given, read.point, cases),
+            *_changed_bodies(given, read.point, cases, _as_given(bodies)),
             (before.closing_speed < 0.0, Status.SEPARATING),
             (before.closing_speed == 0.0, Status.NO_CLOSING),
         ]
@@ -327,7 +328,7 @@ def _pivot_faults(body: Vehicle, eps: float) -> _Faults:
     return [(infinite, Status.PINNED_INFINITE), (not_about_pivot(*motion), Status.PINNED_VELOCITY)]
 
 
-def _changed_bodies(given: dict[str, Any], contact: Any, cases: Cases) -> _Faults:
+def _changed_bodies(given: dict[str, Any], contact: Any, cases: Cases, say: Sentences) -> _Faults:
     """Cases in which the bodies before and after differ in more than motion; single numbers that
     differ are refused at once.
     """
@@ -342,12 +343,12 @@ def _changed_bodies(given: dict[str, Any], contact: Any, cases: Cases) -> _Fault
     changed: list[str] = []
     faults: _Faults = []
     for label in ("a_before", "b_before"):
-        for name, unit in _UNCHANGED.items():
+        for name, kind in _UNCHANGED.items():
             before, after = f"{label}.{name}", f"{label[0]}_after.{name}"
             if before not in given or after not in given:
                 continue
             one, other = given[before], given[after]
-            size = scene if unit == "m" else np.fmax(abs(one), abs(other))
+            size = scene if kind == "length" else np.fmax(abs(one), abs(other))
             apart = np.abs(np.subtract(one, other))
             unlike = np.not_equal(one, other) & (
                 (apart > within * size) | (np.isinf(one) ^ np.isinf(other))
@@ -355,10 +356,8 @@ def _changed_bodies(given: dict[str, Any], contact: Any, cases: Cases) -> _Fault
             if np.ndim(unlike):
                 faults.append((unlike, Status.CONTRADICTORY))
             elif unlike:
-                changed.append(
-                    f"{before} = {one:.6g} {unit} and {after} = {other:.6g} {unit}, {apart:.6g} "
-                    f"{unit} apart"
-                )
+                texts = [say(float(number), kind) for number in (one, other, apart)]
+                changed.append(f"{before} = {texts[0]} and {after} = {texts[1]}, {texts[2]} apart")
     if changed:
         raise InputError(
             f"the bodies before and after must be the same: {'; '.join(changed)}. An impulse "

@@ -12,7 +12,8 @@ from ..messages.errors import InputError
 from ..messages.hints import hinted
 from ..quantities.reading import ArgumentReader, at_least_zero, single_number
 from ..quantities.refusals import must_be
-from ..quantities.units import Input, Value, has_unit, shown
+from ..quantities.tables import Sentences
+from ..quantities.units import Input, Value, has_unit, shown, texts_of
 from .published import Fit, Outside, Published, check_outside, settle
 
 _MPH = 0.44704
@@ -360,7 +361,14 @@ def restitution(closing_speed: Input, *, outside: Outside = "warn") -> Value:
             code="outside_reference",
             argument="closing_speed",
         )
-    return settle(RESTITUTION_FIT, e, {"closing_speed": speed}, usable, outside)
+    return settle(
+        RESTITUTION_FIT,
+        e,
+        {"closing_speed": speed},
+        usable,
+        outside,
+        Sentences(texts_of(reader.texts)),
+    )
 
 
 @hinted

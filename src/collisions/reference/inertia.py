@@ -11,7 +11,8 @@ from ..kernels.elementwise import POSITIVE
 from ..messages.errors import InputError
 from ..messages.hints import hinted
 from ..quantities.reading import ArgumentReader, broadcast, widened
-from ..quantities.units import Input, Value
+from ..quantities.tables import Sentences
+from ..quantities.units import Input, Value, texts_of
 from .published import Fit, Outside, Published, check_outside, settle
 
 _CARS = {"mass": (880.0, 1622.0, "kg"), "length": (3.725, 4.826, "m")}
@@ -131,7 +132,7 @@ def yaw_inertia(
             numbers[name] = reader.number(value, "m", name, POSITIVE)
     check_outside(reader, outside)
     reader.close()
-    shape = broadcast(numbers)
+    shape, say = broadcast(numbers), Sentences(texts_of(reader.texts))
     weight, over_all, second = widened([numbers[name] for name in ("mass", "length", other)])
     with np.errstate(all="ignore"):
         if other == "wheelbase":
@@ -148,9 +149,9 @@ def yaw_inertia(
         )
     if shape is None and not usable:
         raise InputError(
-            f"{other} {second:.6g} m is not below length {over_all:.6g} m; exchange them, or "
-            "correct the unit",
+            f"{other} {say(second, 'length')} is not below length {say(over_all, 'length')}; "
+            "exchange them, or correct the unit",
             code="bad_dimensions",
             argument=other,
         )
-    return settle(fit, found_inertia, numbers, usable, outside)
+    return settle(fit, found_inertia, numbers, usable, outside, say)

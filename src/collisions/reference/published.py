@@ -12,8 +12,10 @@ import numpy as np
 
 from ..messages.errors import InputError, OutOfRangeWarning
 from ..messages.warning import warn_of_cases
+from ..quantities.formatting import KIND_OF
 from ..quantities.reading import ArgumentReader, single_number
 from ..quantities.refusals import must_be
+from ..quantities.tables import Sentences
 from ..quantities.units import Input, Value, to_quantity
 
 Outside: TypeAlias = Literal["warn", "refuse"]
@@ -130,12 +132,15 @@ def check_outside(reader: ArgumentReader, outside: Any) -> None:
         )
 
 
-def settle(fit: Fit, found: Value, given: dict[str, Any], usable: Any, outside: str) -> Value:
+def settle(
+    fit: Fit, found: Value, given: dict[str, Any], usable: Any, outside: str, say: Sentences
+) -> Value:
     """The value of a fit; NaN for batch cases without one; inputs outside its ranges
-    raise or warn.
+    raise or warn. ``say`` writes a number.
     """
     spans = {
-        name: f"{low:.4g} to {high:.4g} {unit}" for name, (low, high, unit) in fit.ranges.items()
+        name: f"{say(low, KIND_OF[unit], 4)} to {say(high, KIND_OF[unit], 4)}"
+        for name, (low, high, unit) in fit.ranges.items()
     }
     ranges = ", ".join(
         span if len(spans) == 1 else f"{name} {span}" for name, span in spans.items()
@@ -145,7 +150,7 @@ def settle(fit: Fit, found: Value, given: dict[str, Any], usable: Any, outside: 
         beyond = beyond | (given[name] < low) | (given[name] > high)
     if not isinstance(found, np.ndarray):
         if beyond:
-            _tell_of_one(fit, ranges, given, outside)
+            _tell_of_one(fit, ranges, given, outside, say)
         return found
     lost = ~usable | (beyond if outside == "refuse" else False)
     answer = np.where(lost, np.array(math.nan, dtype=found.dtype), found)
@@ -172,9 +177,11 @@ def settle(fit: Fit, found: Value, given: dict[str, Any], usable: Any, outside: 
     return answer
 
 
-def _tell_of_one(fit: Fit, ranges: str, given: dict[str, Any], outside: str) -> None:
+def _tell_of_one(
+    fit: Fit, ranges: str, given: dict[str, Any], outside: str, say: Sentences
+) -> None:
     where = ", ".join(
-        f"{name} {given[name]:.6g} {unit}" for name, (_, _, unit) in fit.ranges.items()
+        f"{name} {say(given[name], KIND_OF[unit])}" for name, (_, _, unit) in fit.ranges.items()
     )
     text = f"{fit.name}: {where} lies outside the range it holds for, {ranges} ({fit.source})"
     if outside == "refuse":
