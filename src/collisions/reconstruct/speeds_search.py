@@ -135,17 +135,18 @@ class Search:
         for names in (names for n in (1, 2) for names in combinations(lateral, n)):
             scene, found, *_ = self.solved({name: -self.known[name] for name in names})
             assert isinstance(scene, ComponentScene)
-            answers = [
-                (root[:2], there) for root, there in found[: 1 if scene.shape == () else None]
-            ]
+            # Of a single case the first answer is the one that is meant.
+            roots = found if scene.shape else found[:1]
             ahead: Any = False
             with np.errstate(all="ignore"):
-                for both, there in answers or [(scene.answer, scene.ambiguous)]:
+                for both, there in [(root[:2], there) for root, there in roots] or [
+                    (scene.answer, scene.ambiguous)
+                ]:
                     ahead = ahead | (there & (np.minimum(*both) >= 0.0))
-            of_these = np.broadcast_arrays(ahead, scene.misfit, where)
-            ahead, misfit = (one[of_these[2]] for one in of_these[:2])
-            if np.mean(ahead) > 0.5 and np.median(misfit[ahead]) < best:
-                best, said_of = float(np.median(misfit[ahead])), " and ".join(names)
+            ahead, misfit, asked = np.broadcast_arrays(ahead, scene.misfit, where)
+            fits, missed = ahead[asked], misfit[asked & ahead]
+            if np.mean(fits) > 0.5 and np.median(missed) < best:
+                best, said_of = float(np.median(missed)), " and ".join(names)
         return said_of
 
     def _attempt(self, held: dict[str, Any], most: float, only: Mapping[str, Any]) -> Attempt:
