@@ -101,17 +101,23 @@ def read_grade(reader: ArgumentReader, value: Any, name: str) -> Any:
 
 
 def read_slope(reader: ArgumentReader, value: Any) -> tuple[Any, Any]:
-    """The rises over the run along x and y, with a warning as for a grade."""
-    rises = reader.pair(value, "", "slope")
-    for i, read in enumerate(rises):
+    """The rises over the run along x and y, with a warning as for a grade; infinite, and so without
+    an answer, in a case of a batch that is too steep.
+    """
+    rises = []
+    for i, read in enumerate(reader.pair(value, "", "slope")):
         given = value[i] if isinstance(value, (tuple, list)) else value
-        name = f"slope[{i}]"
-        if np.any(np.abs(read) > _STEEPEST):
+        name, steep = f"slope[{i}]", np.abs(read) > _STEEPEST
+        if np.ndim(read):
+            read = np.where(steep, np.inf, read).astype(read.dtype)
+        elif steep:
             text = f"between -{_STEEPEST:g} and {_STEEPEST:g}, the rise over the run"
             reader.refuse(must_be(name, text, given, code="out_of_range"))
-        else:
-            warn_if_large(given, read, _STEEPEST_GRADE, name, "the rise over the run", "%")
-    return rises
+            continue
+        warn_if_large(given, read, _STEEPEST_GRADE, name, "the rise over the run", "%")
+        rises.append(read)
+    x, y = rises if len(rises) == 2 else (math.nan, math.nan)
+    return x, y
 
 
 def in_one_precision(
