@@ -415,6 +415,7 @@ SCENE_REFUSALS = [
         "bad_outline",
         "surfaces[0] encloses no area; give its corners",
     ),
+    ({"slope": (0.1,)}, ShapeError, "bad_shape", "slope must be a pair"),
     ({"slope": (1e200, 0.0)}, InputError, "out_of_range", "slope[0] must be between -100 and 100"),
     ({"surfaces": [(AREA, -0.3)]}, InputError, "bad_friction", "surfaces[0] must be >= 0, got"),
     # The order.

@@ -106,7 +106,7 @@ def read_slope(reader: ArgumentReader, value: Any) -> tuple[Any, Any]:
     """
     rises = []
     for i, read in enumerate(reader.pair(value, "", "slope")):
-        given = value[i] if isinstance(value, (tuple, list)) else value
+        given = value[i] if isinstance(value, (tuple, list)) and len(value) == 2 else value
         name, steep = f"slope[{i}]", np.abs(read) > _STEEPEST
         if np.ndim(read):
             read = np.where(steep, np.inf, read).astype(read.dtype)
