@@ -22,6 +22,7 @@ from collisions.derivation.symbols import Symbol
 from collisions.impact.impact import build
 from collisions.kernels.contact_laws import LAWS, RULES, Law, Rule
 from collisions.kernels.elementwise import FINITE
+from collisions.travel import Tyres
 from scenes import BESIDE
 from strategies import other_registry
 
@@ -294,12 +295,26 @@ def equations(monkeypatch):
     return found
 
 
-@pytest.mark.parametrize("name", SCENES)
+TYRES = {"duration": 0.1, "tyres_a": Tyres(0.7, 1.0, 1.3, 1.3)}
+PUSH = (50.0, 20.0, 5.0)
+PUSHED = {
+    "tyres": {**TYRES},
+    "tyres of both": {**TYRES, "tyres_b": Tyres(0.5, 0.2, 1.3, 1.3)},
+    "tyres and a push": {**TYRES, "outside_a": PUSH},
+    "a push": {"outside_a": PUSH},
+    "a push on each": {"outside_a": PUSH, "outside_b": (-30.0, 10.0, 0.0)},
+    "incomplete": {"e": -0.3, "incomplete": True},
+}
+
+
+@pytest.mark.parametrize("name", [*SCENES, *PUSHED])
 def test_every_answer_has_an_equation(name, monkeypatch):
     """Or a sentence that is checked like one; but not what was found backwards, and what a body of
     infinite mass keeps.
     """
-    impact, written = SCENES[name], []
+    impact, written = SCENES.get(name), []
+    if impact is None:
+        impact = crossroads(friction=0.5, **PUSHED[name])
 
     def noted(write, sides):
         def instead(page, caption, *arguments):

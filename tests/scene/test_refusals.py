@@ -677,3 +677,19 @@ def test_two_that_graze_each_other_for_years_are_given_up() -> None:
     with pytest.warns(col.CollisionsWarning):
         several = crash.replace({"B.vx": [-6.6, -6.61]}).run()
     assert list(several.status) == ["never_ends"] * 2
+
+
+def test_a_kinetic_energy_beyond_floats_is_refused_or_a_case_without_an_answer() -> None:
+    """But not that of a wall that moves, which is infinite."""
+
+    def run(vx: Any, **heavy: Any) -> Any:
+        body = col.Vehicle(x=0.0, y=0.0, heading=0.0, vx=vx, **{"mass": 1500.0, **heavy})
+        return Scene(movers={"A": Mover(body, drag=0.5)}, contacts=[]).run()
+
+    with pytest.raises(InputError, match="kinetic energy of A is not a finite number") as refused:
+        run(1e155)
+    assert refused.value.code == "out_of_range"
+    with pytest.warns(col.CollisionsWarning, match="1 not_finite"):
+        found = run(np.array([10.0, 1e155]))
+    assert found.status.tolist() == ["ok", "not_finite"]
+    assert run(10.0, mass=math.inf, yaw_inertia=math.inf).status == "ok"

@@ -435,22 +435,53 @@ def kinetic_energies(page: Page, s: Symbols, lost: Symbol | None = None) -> None
         else:
             turning = ", of translation and rotation" if body.state(when).yaw_rate else ""
             page.equation(f"Kinetic energy of {body.label} {when}{turning}", symbol, formula)
-    for body in s.bodies:
-        if body.outside is not None:
-            mean = [HALF * (body.axis(axis) + body.axis(axis, AFTER)) for axis in "xy"]
-            work = body.pushed("x") * mean[0] + body.pushed("y") * mean[1]
-            if body.outside[2]:
-                moment = Symbol(rf"\mathrm{{M}}_{body.label}", body.outside[2], "angular momentum")
-                work = work + moment * (HALF * (body.spin() + body.spin(AFTER)))
-            caption = f"Work of the {body.whence} on {body.label}, at the mean of its velocities"
-            terms.append((1.0, page.let(caption, f"W_{body.label}", "energy", work)))
+    works = [_work(page, body) for body in s.bodies if body.outside is not None]
+    terms += [(1.0, work) for work in works]
     before_first = sorted(terms, key=lambda term: -term[0])
-    with_work = ", with that work" if any(body.outside for body in s.bodies) else ""
+    with_work = ", with that work" if works else ""
     page.equation(
         f"Check: kinetic energies before less those after (7){with_work}",
         lost or s.loss,
         signed_total(before_first),
     )
+
+
+def _work(page: Page, body: Body) -> Symbol:
+    """Write the work of the impulse from outside and of tyres on a body, and what of it is the
+    tyres'.
+    """
+    assert body.outside is not None
+    label, side = body.label, body.side
+    speeds = [HALF * (body.axis(axis) + body.axis(axis, AFTER)) for axis in "xy"]
+    turning = HALF * (body.spin() + body.spin(AFTER))
+
+    def at_mean(x: Symbol, y: Symbol, moment: Symbol) -> Expression:
+        work = x * speeds[0] + y * speeds[1]
+        return work + moment * turning if moment.value else work
+
+    moment = Symbol(rf"\mathrm{{M}}_{label}", body.outside[2], "angular momentum")
+    caption = f"Work of the {body.whence} on {label}, at the mean of its velocities"
+    formula = at_mean(body.pushed("x"), body.pushed("y"), moment)
+    work = page.let(caption, f"W_{label}", "energy", formula)
+    if "tyres" not in body.whence:
+        return work
+    of_tyres: Expression = -work
+    if "outside" in body.whence:
+        given = Symbol(rf"W_{{{label}O}}", side.outside_work, "energy")
+        parts = [
+            Symbol(rf"\mathrm{{O}}_{{{label}{axis}}}", getattr(side, f"outside_{axis}"), kind)
+            for axis, kind in (("x", "impulse"), ("y", "impulse"), ("yaw", "angular momentum"))
+        ]
+        shown = ", ".join(page.shown(part) for part in parts)
+        page.say(f"Of that impulse the one given from outside is {shown}.")
+        page.equation(f"Its work on {label}", given, at_mean(*parts))
+        of_tyres = given - work
+    page.equation(
+        f"Energy taken by the tyres of {label}",
+        Symbol(rf"W_{{{label}T}}", side.tyre_loss, "energy"),
+        of_tyres,
+    )
+    return work
 
 
 def _kinetic_energy(body: Body, when: str) -> tuple[float, Expression]:

@@ -104,10 +104,10 @@ class RecordedPulse(Shown):
         not grow: that is within its error of 0, so that it does not say to which side it went on,
         or that was greater before, or is less in a later sample.
         """
-        size = np.hypot(self.forward, 0.0 if self.left is None else self.left)
-        at, parts = int(np.argmax(size)), (self.forward, self.left)
+        at = int(np.argmax(_resultant(self.forward, self.left)))
         forward, left = (
-            None if part is None else _evidence(part, at, self.ended) for part in parts
+            None if part is None else _evidence(part, at, self.ended)
+            for part in (self.forward, self.left)
         )
         return forward, left
 
@@ -309,7 +309,7 @@ def recorded_pulse(
     aside = (
         _LEFTWARD[polarity] * samples["delta_v_left"] + 0.0 if "delta_v_left" in samples else None
     )
-    size = np.hypot(ahead, 0.0 if aside is None else aside)
+    size = _resultant(ahead, aside)
     if not (
         np.isfinite(size).all()
         and np.all(np.diff(times) > 0.0)
@@ -396,6 +396,10 @@ def _warn_if_beyond(name: str, part: Any, bare: bool) -> None:
     else:
         text = f"{text}: check its unit, and whether it is delta-V; its error may be larger"
         warn(OutOfRangeWarning(text, code="beyond_recorder", argument=name, value=worst))
+
+
+def _resultant(forward: Any, left: Any) -> Any:
+    return np.hypot(forward, 0.0 if left is None else left)
 
 
 def _error(value: float) -> float:

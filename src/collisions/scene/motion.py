@@ -14,7 +14,14 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..impact.inputs import part_of
-from ..messages.errors import CollisionsError, MissingInputError, NoSolutionError, Status, placed
+from ..messages.errors import (
+    CollisionsError,
+    InputError,
+    MissingInputError,
+    NoSolutionError,
+    Status,
+    placed,
+)
 from ..messages.warning import quietly
 from ..quantities.settings import in_si
 from ..quantities.units import Texts, texts_of
@@ -194,11 +201,36 @@ class Course:
         self._places: list[Any] = []
         self._present: Any = np.zeros(count, dtype=int)
         self.fixed = mover.fixed
+        self._refuse_speeds()
         if mover.drag is not None:
             self._refuse_drags()
         # All tyres that it has had, and on which of them each case moves now.
         self.wheels: list[Tyres | None] = [mover.tyres]
         self.wheels_of: Any = np.zeros(count, dtype=int)
+
+    def _refuse_speeds(self) -> None:
+        """Leave the cases without an answer whose kinetic energy is beyond the range of floats; an
+        infinite mass or yaw inertia that moves is none of these.
+        """
+        body, cases = self.mover.vehicle, self.ground.cases
+        inertia = 0.0 if body.yaw_inertia is None else body.yaw_inertia
+        with np.errstate(all="ignore"):
+            energy = sum(
+                np.where(np.isfinite(weight), weight * square, 0.0)
+                for weight, square in (
+                    (cases(body.mass), cases(body.vx) ** 2 + cases(body.vy) ** 2),
+                    (cases(inertia), cases(body.yaw_rate) ** 2),
+                )
+            )
+        lost = np.flatnonzero(np.isposinf(energy))
+        if len(lost) and self.ground.single:
+            raise InputError(
+                f"the kinetic energy of {self.name} is not a finite number: its mass, yaw inertia, "
+                "speed or yaw rate is too large for floats",
+                code="out_of_range",
+                argument="movers",
+            )
+        self._fail(lost, Status.NOT_FINITE.label)
 
     def _refuse_drags(self) -> None:
         """Leave the cases without an answer whose drag or slope slows nothing that can be said."""

@@ -529,7 +529,8 @@ def columns_of(run: Run, units: Any) -> dict[str, list[Any]]:
         name = path
         if system is not None and unit:
             if kind is not None:
-                value = value * system.scale(kind)
+                with np.errstate(over="ignore"):
+                    value = value * system.scale(kind)
             name = f"{path} [{unit if kind is None else system.label(kind)}]"
         found[name] = value.tolist()
     return found
