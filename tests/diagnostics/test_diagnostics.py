@@ -816,6 +816,24 @@ def test_speeds_backwards_and_units_of_momentum():
     )
 
 
+def test_a_mass_with_a_unit_is_not_asked_for_another():
+    """A motorcycle weighs less than any car, and its unit was given."""
+    car = col.Vehicle(mass=1500, vx="30 mph", x=0, y=0, heading=0)
+    for mass, said in (
+        ("320 lb", "has a mass of 320.0 lb; check its unit"),
+        (145.0, "has a mass of 145 kg; were tonnes or slugs meant?"),
+        ("300000 lb", "has a mass of 300000 lb; check its unit"),
+    ):
+        other = col.Vehicle(mass=mass, vx="10 mph", x=2, y=0, heading=0)
+        found = silent(lambda other=other: col.linear_central(car, other, 0.1))
+        (one,) = (
+            one
+            for one in diagnose(found, units="us")
+            if one.code in ("suspect_mass", "suspect_heavy")
+        )
+        assert one.sentence.endswith(said)
+
+
 def test_one_of_two_answers():
     """Both say that there are two, also when replayed; the others of a batch are counted one by
     one.

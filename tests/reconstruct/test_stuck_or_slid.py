@@ -17,6 +17,7 @@ from collisions import reconstruct, reference, reporting, uncertainty
 from collisions.diagnostics import diagnose
 from collisions.impact.reconstruction import side_of
 from collisions.reconstruct import speeds
+from collisions.travel import Tyres
 from scenes import IN_POUNDS
 
 MPH = 0.44704
@@ -100,6 +101,60 @@ def test_a_stated_contact_is_taken_at_its_word_and_the_doubt_is_said():
     (quiet,) = back(impact=gentle, course_b="-90 deg", friction=math.inf, regime="sticking")
     assert mph(quiet) == pytest.approx([30.0, 3.0], rel=1e-12)
     assert "may_slide" not in {one.code for one in diagnose(quiet)}
+
+
+TYRES = {f"tyres_{label}": Tyres(0.7, 0.0, 2.7, 1.5) for label in "ab"} | {"duration": 0.1}
+
+
+@pytest.mark.parametrize("lasting", [{}, pytest.param(TYRES, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("beside", ["energy_loss", "ees_a", "speed_a", "speed_b"])
+def test_the_doubt_is_said_whatever_else_is_known(beside, lasting):
+    """That it stuck is stated, and beside it an energy or a speed of the contact that slid is
+    known, or of one that stuck: in a single case, in a batch and in a study.
+    """
+    slid = crossing()
+    of = {
+        "energy_loss": slid.energy_loss,
+        "ees_a": (0.5 * slid.energy_loss / A.mass * 2.0) ** 0.5,
+        "speed_a": 29.0 * MPH,
+        "speed_b": 11.0 * MPH,
+    }[beside]
+    known = {beside: of, "friction": math.inf, "regime": "sticking", **lasting}
+    if beside == "ees_a":
+        known["ees_b"] = (0.5 * slid.energy_loss / B.mass * 2.0) ** 0.5
+
+    def told(solve):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            return solve(), {one.message.code: str(one.message) for one in caught}
+
+    (stuck,), said = told(lambda: back(**known))
+    assert stuck.regime == "sticking"
+    assert re.search(r"If it slid, .*(at least|not the impact)", said["may_slide"])
+    (finding,) = (one for one in diagnose(stuck) if one.code == "may_slide")
+    assert re.search(r"; if it slid, .*(at least|not the impact)", finding.sentence)
+    _, said = told(lambda: back(**known | {beside: np.array([of, 1.001 * of])}))
+    assert "2 cases" in said["may_slide"] or "2 of 2" in said["may_slide"]
+    study, said = told(
+        lambda: uncertainty.propagate(
+            lambda value: {"speed": back(**known | {beside: value})[0].b.before.speed},
+            {"value": uncertainty.Normal(of, 0.001 * of)},
+            samples=64,
+            seed=1,
+        )
+    )
+    assert "may_slide" in said
+    assert any("taken to stick" in statement for statement in study.statements)
+
+
+def test_what_differs_from_components_is_named():
+    """The components alone agree: it is the energy that does not."""
+    with pytest.warns(col.IllConditionedWarning, match="energy_loss and delta_v_forward_a"):
+        (found,) = back(friction=math.inf, energy_loss=0.7 * back(
+            friction=math.inf, slid="bound")[0].energy_loss)  # fmt: skip
+    (finding,) = (one for one in diagnose(found) if one.code == "components_differ")
+    assert "the energy" in finding.sentence
+    assert "the delta-V forward of A" in finding.sentence
 
 
 @pytest.mark.slow

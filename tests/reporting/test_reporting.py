@@ -1146,6 +1146,10 @@ def test_a_normal_without_a_unit_is_the_angle_of_the_normal():
         forged = tampered(page, lambda r: r["impact"]["inputs"].update({"bare_normal": 1.0}))
         with pytest.raises(col.InputError, match="bare_normal is not the angle of its normal"):
             replay(forged)
+    # Of one normal there are not two angles.
+    forged = tampered(page, lambda r: r["impact"]["inputs"].update({"bare_normal": [7.0, 7.0]}))
+    with pytest.raises(col.InputError, match="bare_normal has the shape"):
+        replay(forged)
     assert replay(page).inputs.bare_normal == 7.0
 
 
@@ -2061,6 +2065,8 @@ B = col.Vehicle(mass=1200.0, yaw_inertia=1800.0, vy=9.0, x=0.9, y=-1.0, heading=
         {"method": "guess"},
         {"known": ["restitution", "energy_loss", "va"]},
         {"found": ["friction"]},
+        {"found": ["speed_a", "speed_b", "speed_a"]},
+        {"found": ["speed_b", "speed_a"]},
     ],
 )
 def test_what_a_record_says_of_its_reconstruction_is_worked_out_again(changed):
@@ -2092,6 +2098,24 @@ def _found_from_recorders():
     yield from reconstruct.speeds(
         A, B, delta_v_a=ahead.a.delta_v, speed_b=9.0, friction=0.3, **contact
     )
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("share", [0.01, -0.01, 3e-4])
+def test_a_condition_is_held_to_the_digits_that_are_printed(share):
+    """Of well-posed answers, whose conditions are below 100."""
+    for impact in _found():
+        condition = impact.reconstruction.condition
+        assert condition < 100.0
+        page = report(impact, form="markdown")
+        changed = {"condition": condition * (1.0 + share)}
+        with pytest.raises(col.InputError, match="give a condition of"):
+            replay(
+                tampered(
+                    page,
+                    lambda r, new=changed: r["impact"]["results"]["reconstruction"].update(new),
+                )
+            )
 
 
 @pytest.mark.slow

@@ -15,6 +15,7 @@ from collisions.messages.warning import warn, warn_of_cases
 from collisions.uncertainty import Interval, Normal, Uniform, propagate
 
 A = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, vx=12.0, x=-2.0, y=0.6, heading=0.0)
+MPH = 0.44704
 B = col.Vehicle(mass=1200.0, yaw_inertia=1800.0, vy=9.0, x=0.9, y=-1.0, heading=np.pi / 2)
 
 
@@ -360,3 +361,110 @@ def test_a_censored_reading_is_no_input_and_is_not_called_an_interval():
 
     with pytest.raises(col.InputError, match=r"evidence for reconstruct\.posterior"):
         propagate(lambda x: {"y": x}, {"x": Censored(low=1.0)})
+
+
+@pytest.mark.parametrize(
+    "restitution",
+    [
+        reference.restitution,
+        lambda speed: reference.restitution(float(speed)),  # takes one speed at a time
+    ],
+)
+def test_a_function_of_restitution_warns_of_the_answer_alone(restitution):
+    """The formula holds from 2 to 15 mph, and speeds beyond are tried on the way to an answer."""
+
+    def closing(delta_v):
+        return reconstruct.inline_closing_speed(1500, 1200, restitution, delta_v_b=delta_v)
+
+    inside, caught = quiet(lambda: closing(4.05))
+    assert 2.0 * MPH < inside < 15.0 * MPH
+    assert not caught
+    beyond, caught = quiet(lambda: closing(9.0))
+    assert beyond > 15.0 * MPH
+    assert [one.message.code for one in caught] == ["outside_reference"]
+    found, caught = quiet(
+        lambda: propagate(
+            lambda delta_v: {"closing": closing(delta_v)},
+            {"delta_v": Normal(3.0, 1.5, truncate=(0.05, None))},
+            samples=128,
+            seed=1,
+        )
+    )
+    outside = ~((found["closing"].values >= 2.0 * MPH) & (found["closing"].values <= 15.0 * MPH))
+    (note,) = (one for one in found.notes if one.code == "outside_reference")
+    assert note.fields["cases"] == np.count_nonzero(outside) > 0
+    assert [one.message.code for one in caught] == ["outside_reference"]
+    assert not caught[0].message.fields.get("times")
+
+
+def test_a_function_of_restitution_warns_of_the_answers_of_speeds():
+    """Of three cases the first two are answered, one of them beyond 15 mph."""
+    a = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=-2.0, y=0.0, heading=0.0)
+    b = col.Vehicle(mass=1900.0, yaw_inertia=3400.0, x=2.0, y=0.2, heading=0.0)
+    contact = {"normal": 0.0, "point": (0.0, 0.1), "friction": 0.5}
+
+    def solved(delta_v):
+        return reconstruct.speeds(
+            a, b, restitution=reference.restitution, course_a=0.0, course_b=0.0, speed_b=0.0,
+            delta_v_a=delta_v, **contact,
+        )  # fmt: skip
+
+    (one,), caught = quiet(lambda: solved("8 km/h"))
+    assert 2.0 * MPH < one.closing_speed < 15.0 * MPH
+    assert not caught
+    (batch,), caught = quiet(lambda: solved(np.array([2.2, 6.0, np.nan])))
+    assert np.isfinite(batch.closing_speed).tolist() == [True, True, False]
+    text = next(str(one.message) for one in caught if one.message.code == "outside_reference")
+    assert "of 2 cases 1 lie outside" in text
+
+
+def test_profiles_that_may_be_in_other_units_are_counted_by_case():
+    """Depths above 2 m of some samples of one of them."""
+
+    def energy(depth):
+        return {"energy": reconstruct.crush_energy(1.5, [depth, depth, 0.2], 4e4, 6e5)}
+
+    found, caught = quiet(
+        lambda: propagate(energy, {"depth": Normal(1.8, 0.2)}, samples=128, seed=1)
+    )
+    (note,) = (one for one in found.notes if one.code == "suspect_units")
+    assert 0 < note.fields["cases"] < 128
+    (limit,), _ = quiet(lambda: list(energy(2.0).values()))
+    assert note.fields["cases"] == np.count_nonzero(found["energy"].values > limit)
+    assert [one.message.code for one in caught] == ["suspect_units"]
+
+
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+@pytest.mark.parametrize("kept", ["output", "result"])
+def test_what_only_some_samples_of_a_posterior_have_is_said(kept):
+    """An output that is not observed, and a result worked out afterwards: both without an answer
+    above 18.5 m/s, the middle of the samples.
+    """
+
+    def some(speed):
+        return np.where(speed > 18.5, np.nan, speed)
+
+    def model(speed):
+        return {"read": speed} | ({"other": some(speed)} if kept == "output" else {})
+
+    def study():
+        found = reconstruct.posterior(
+            model, {"speed": Normal(18.0, 4.0)}, {"read": (18.5, 1.5)}, samples=1024, seed=1
+        )
+        if kept == "result":
+            return found.with_result("other", some, "m/s", speed=found["speed"])
+        return found
+
+    found, caught = quiet(study)
+    missing = int(np.count_nonzero(found["speed"].values > 18.5))
+    assert 400 < missing == found["other"].failed
+    assert [one.message.code for one in caught] == ["failed_cases"]
+    said = f"{missing} of 1024 samples ({100.0 * missing / 1024:.3g} %) have no 'other'"
+    page = col.report(found, form="markdown")
+    for place in (
+        " ".join(found.statements),
+        " ".join(str(found.summary()).split()),
+        json.dumps(found.to_dict()),
+        page,
+    ):
+        assert said in place

@@ -47,7 +47,8 @@ class Damage(NamedTuple):
 
 class VehicleFigures(NamedTuple):
     """The quantities that every result has for a vehicle, and its name in a sentence; mass and
-    speed are those before. ``speed_has_unit`` says whether that speed was given with one.
+    speed are those before. ``mass_has_unit`` and ``speed_has_unit`` say whether they were given
+    with one.
     """
 
     who: str
@@ -56,6 +57,7 @@ class VehicleFigures(NamedTuple):
     delta_v: float
     pdof: float | None
     heading: float | None
+    mass_has_unit: bool
     speed_has_unit: bool
 
 
@@ -121,7 +123,12 @@ class MomentumCase(_Case):
             label: VehicleFigures(
                 who=f"vehicle {label.upper()}",
                 **{name: getattr(self.answer, f"{name}_{label}") for name in names},
-                speed_has_unit=isinstance((self.answer.given or {}).get(f"speed_{label}"), str),
+                **{
+                    f"{name}_has_unit": isinstance(
+                        (self.answer.given or {}).get(f"{name}_{label}"), str
+                    )
+                    for name in ("mass", "speed")
+                },
             )
             for label in "ab"
         }
@@ -165,6 +172,7 @@ class ImpactCase(_Case):
                 side.delta_v,
                 side.pdof,
                 side.before.heading,
+                mass_has_unit="mass" in (side.before.given or {}),
                 speed_has_unit=_speed_has_unit(side.before),
             )
             for label, who, side in self.sides

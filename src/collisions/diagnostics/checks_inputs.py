@@ -12,7 +12,7 @@ from ..impact.inputs import PLACED, Inputs
 from ..reference import CONTACT_DURATION
 from ..vehicle.drag import HIGHEST_DRAG
 from ..vehicle.vehicle import Vehicle
-from .case import Case, ImpactCase, off_by
+from .case import Case, ImpactCase, VehicleFigures, off_by
 from .finding import NOTE, Measured, above, below, finding
 
 # How far a contact may be from the centre of mass: in radii of gyration, and in metres where there
@@ -28,8 +28,14 @@ _WHOLE = 1e-12  # rad: the rounding of an angle from its unit vector
 )
 def suspect_mass(case: Case) -> Iterator[Measured]:
     for label, vehicle in case.vehicles.items():
-        sentence = f"{vehicle.who} has a mass of {vehicle.mass:.6g} kg; were tonnes or slugs meant?"
-        yield Measured(vehicle.mass, sentence, label)
+        yield Measured(vehicle.mass, _of_mass(case, vehicle, "were tonnes or slugs meant?"), label)
+
+
+def _of_mass(case: Case, vehicle: VehicleFigures, doubt: str) -> str:
+    """What a mass is, with a doubt of how it was given where it had no unit."""
+    if vehicle.mass_has_unit:
+        return f"{vehicle.who} has a mass of {case.text(vehicle.mass, 'mass')}; check its unit"
+    return f"{vehicle.who} has a mass of {vehicle.mass:.6g} kg; {doubt}"
 
 
 @finding(
@@ -41,10 +47,8 @@ def suspect_heavy(case: Case) -> Iterator[Measured]:
     immovable = ", or an immovable body (inf)" if isinstance(case, ImpactCase) else ""
     for label, vehicle in case.vehicles.items():
         if not math.isinf(vehicle.mass):
-            sentence = (
-                f"{vehicle.who} has a mass of {vehicle.mass:.6g} kg; were grams meant{immovable}?"
-            )
-            yield Measured(vehicle.mass, sentence, label)
+            doubt = f"were grams meant{immovable}?"
+            yield Measured(vehicle.mass, _of_mass(case, vehicle, doubt), label)
 
 
 @finding("speed before", above(44.0, "m/s"), "set here: 158 km/h; km/h or mph as m/s")
@@ -83,8 +87,8 @@ def _radii_of_gyration(case: ImpactCase) -> Iterator[Measured]:
         if inertia is not None and not math.isinf(inertia) and not math.isinf(mass):
             radius = math.sqrt(inertia / mass)
             sentence = (
-                f"{who} has a yaw inertia of {inertia:.4g} kg·m², a radius of gyration of "
-                f"{radius:.3g} m; check its unit"
+                f"{who} has a radius of gyration of {case.text(radius, 'length')} by its yaw "
+                "inertia; check its unit"
             )
             yield Measured(radius, sentence, label)
 

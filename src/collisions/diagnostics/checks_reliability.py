@@ -11,7 +11,13 @@ from typing import Any
 from ..impact.impact import Impact, answer_of
 from ..impact.inputs import PLACED
 from ..impact.instant import neglected, tyres_acted
-from ..impact.reconstruction import Reconstruction, bounds_of, how_many, known_in_words
+from ..impact.reconstruction import (
+    NOT_THIS,
+    Reconstruction,
+    bounds_of,
+    how_many,
+    known_in_words,
+)
 from ..impact.time_resolved_inputs import held_impulse
 from ..impact.vehicle_result import VehicleResult
 from ..reconstruct.found_again import components_apart
@@ -448,10 +454,11 @@ def may_slide(case: ImpactCase) -> Iterator[Measured]:
         return
     ratio = abs(impact.impulse_ratio)
     slid = if_it_slid(impact)
-    then = "friction was less than that, and this is not the impact"
+    bounds: list[str] = []
     if slid is not None and slid.reconstruction is not None:
         speeds = {name: case.text(getattr(slid, name), "speed") for name in ("speed_a", "speed_b")}
-        then = " and ".join(bounds_of(slid.reconstruction.one_sided or {}, speeds))
+        bounds = bounds_of(slid.reconstruction.one_sided or {}, speeds)
+    then = " and ".join(bounds) or NOT_THIS
     sentence = (
         f"to stick, the contact needs an impulse ratio of {ratio:.2f}, and contacts between "
         f"vehicles slide from {INTER_VEHICLE_FRICTION.low:g} on; if it slid, {then}"

@@ -23,7 +23,7 @@ from ..uncertainty.distributions import Distribution
 from ..uncertainty.finer import FinerModel
 from ..uncertainty.model import AnyModel, Model, function_of, range_hint, units_taken
 from ..uncertainty.propagation import check_options
-from ..uncertainty.result import wrap_notes, wraps_of
+from ..uncertainty.result import unanswered_notes, wrap_notes, wraps_of
 from ..uncertainty.sampling import Correlation, Joint
 from ..uncertainty.turns import folded
 from .at_level import at_level
@@ -138,7 +138,8 @@ def posterior(
         0.01.
     OutOfRangeWarning
         An unknown or an output looks like an angle that jumps, or has directions to all sides, so
-        that its mean means nothing, or little.
+        that its mean means nothing, or little; or an output that is not observed has no value at
+        some samples, and its figures are of the others (code "failed_cases").
     IllConditionedWarning
         The evidence says nothing about an unknown with a uniform prior; or the islands disagree, or
         the sample collapsed; or more than 1 % of the samples lie where only the finer model has an
@@ -458,7 +459,7 @@ class _Problem:
             name: PosteriorOutput(name, self.model.units[name], column, labels)
             for name, column in answers.items()
         }
-        notes += tuple(wrap_notes(wraps_of(predicted | unknowns)))
+        notes += *unanswered_notes(predicted), *wrap_notes(wraps_of(predicted | unknowns))
         refused = float(np.mean([one.refused for one in islands]))
         if refused:
             notes = tuple(_ruled_out(note) for note in notes)

@@ -27,6 +27,7 @@ from ..uncertainty.result import (
     Shares,
     correlations,
     outputs_part,
+    unanswered_notes,
     units_of,
     wrap_notes,
     wraps_of,
@@ -257,6 +258,12 @@ class Posterior(SpeedsFound, Summarized):
         NoSolutionError
             The function has an answer at none of the samples (code "refused").
 
+        Warns
+        -----
+        OutOfRangeWarning
+            The function has no answer at some of the samples, and the figures are of the others
+            (code "failed_cases").
+
         Examples
         --------
         A car left 12 m of skid marks before an impact at which it was still going some 10 m/s. With
@@ -286,7 +293,13 @@ class Posterior(SpeedsFound, Summarized):
         values, own, notes = worked_out(name, function, unit, arguments, self._outputs, source)
         islands = next(iter(self.unknowns.values()))._islands
         output = PosteriorOutput(name, own, values, islands)
-        notes += tuple(wrap_notes(wraps_of({name: output})))
+        if output.failed:
+            # That samples have no answer is raised once.
+            notes = tuple(
+                note._replace(warning=None) if note.code == "refused_cases" else note
+                for note in notes
+            )
+        notes += *unanswered_notes({name: output}), *wrap_notes(wraps_of({name: output}))
         warn_of(notes)
         return replace(
             self,

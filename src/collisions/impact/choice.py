@@ -146,7 +146,7 @@ class ModelChoice(Shown):
 
     @derived()
     def reason(self) -> str:
-        """Why, in a sentence."""
+        """Why, in a sentence, its speeds in m/s; ``summary`` says it in other units."""
         return _reason(self)
 
     @derived()

@@ -32,8 +32,9 @@ LOOKED_FOR = (
 # Of a known speed and one other known value.
 LOOKED_ALONG = (
     "answers are looked for from those of an instant without tyres and by a scan of the unknown "
-    "speed, to 60 m/s both ways and further where what is known is large; one that lies beyond, or "
-    "that the steps of the scan do not tell from another or from a jump, is missed"
+    "speed, to 60 m/s (216 km/h, 134 mph) both ways and further where what is known is large; one "
+    "that lies beyond, or that the steps of the scan do not tell from another or from a jump, is "
+    "missed"
 )
 # Of readings of recorders away from the centre of mass, or in axes that turn.
 LOOKED_FOR_TURNS = (

@@ -327,6 +327,10 @@ def how_many(answers: float) -> str:
     return "a whole range of impacts" if answers == math.inf else f"{answers} impacts"
 
 
+# What follows of a contact that was taken to stick, where no bound of a speed does.
+NOT_THIS = "friction was less than that, and this is not the impact"
+
+
 def bounds_of(sides: Mapping[str, int], speeds: Mapping[str, str]) -> list[str]:
     """What is known of each speed of a single case in which the contact may have slid: "the speed
     of B is at least 4.8 m/s". ``speeds`` has their numbers as texts.

@@ -230,6 +230,10 @@ def _bare_normal(found: Mapping[str, Any]) -> Any:
     bare = reader.number(read_strict(found["bare_normal"]), "", "bare_normal")
     reader.close()
     fits = not isinstance(found["normal"], str)
+    if fits and np.shape(bare) != np.shape(read_strict(found["normal"][0])):
+        raise bad_record(
+            f"its bare_normal has the shape {np.shape(bare)}, which is not that of its normal"
+        )
     if fits:
         # To the digits of float32. The angle of a refused case may have no direction.
         with np.errstate(invalid="ignore"):

@@ -149,6 +149,28 @@ def quietly(said: list[Said] | None = None) -> Iterator[None]:
         _sampling.reset(sampled)
 
 
+@contextmanager
+def of_some(where: Any) -> Iterator[None]:
+    """Within this context what is noted of a study is of these of all cases: of those among them
+    that it is of, if it was said with a number for each of them.
+    """
+    said = _sampling.get()
+    if said is None:
+        yield
+        return
+    mine: list[Said] = []
+    token = _sampling.set(mine)
+    try:
+        yield
+    finally:
+        _sampling.reset(token)
+    for one in mine:
+        whole = np.array(where)
+        if np.shape(one.where) == (np.count_nonzero(where),):
+            whole[where] = one.where
+        said.append(one._replace(where=whole))
+
+
 def noted_in_call(said: Iterable[Said], count: int) -> list[Noted]:
     """What was said while a model was called with so many cases: each warning once, of the cases
     it is of.

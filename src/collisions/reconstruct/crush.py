@@ -5,7 +5,7 @@ it, and delta-V from it.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, cast
 
 import numpy as np
@@ -17,7 +17,7 @@ from ..messages.errors import OutOfRangeWarning, ShapeError
 from ..messages.hints import hinted
 from ..messages.warning import warn
 from ..quantities.directions import Angle
-from ..quantities.reading import ArgumentReader, amount, largest, warn_if_large
+from ..quantities.reading import ArgumentReader, amount, warn_if_large
 from ..quantities.refusals import must_be
 from ..quantities.sourced import Sourced, as_given
 from ..quantities.units import Input, Value, has_unit, is_quantity, shown
@@ -132,8 +132,8 @@ def crush_energy(
         "stiffness_b": (stiffness_b, b),
         "force_angle": (force_angle, angle.value),
     }
-    _warn_if_large(depths, crush, _DEEPEST, "depths", max)
-    _warn_if_large(widths, whole if isinstance(whole, list) else [whole], _WIDEST, "widths", sum)
+    _warn_if_large(depths, crush, _DEEPEST, "depths", np.fmax)
+    _warn_if_large(widths, whole if isinstance(whole, list) else [whole], _WIDEST, "widths", np.add)
     amounts = {f"depths[{i}]": depth for i, depth in enumerate(crush)} | {
         f"widths[{i}]": gap for i, gap in enumerate(gaps)
     }
@@ -355,15 +355,17 @@ def _answers(cases: Cases, faults: list[tuple[Any, int]], *found: Any) -> list[V
 
 
 def _warn_if_large(
-    given: Any, read: Sequence[Any], limit: float, name: str, of_all: Callable[[list[float]], float]
+    given: Any, read: Sequence[Any], limit: float, name: str, of_all: np.ufunc
 ) -> None:
     """One warning for a profile given without a unit, if its largest value or its sum
-    is too large.
+    is too large, of the cases in which it is.
     """
     parts = given if isinstance(given, (list, tuple)) else [given] * len(read)
-    bare = [largest(number) for part, number in zip(parts, read, strict=True) if not has_unit(part)]
-    if bare and of_all(bare) > limit:
-        warn_if_large(None, max(bare), 0.0, name, "metres", "cm", "in")
+    bare = [abs(number) for part, number in zip(parts, read, strict=True) if not has_unit(part)]
+    if bare:
+        each = np.stack(np.broadcast_arrays(*bare))
+        suspected = np.where(of_all.reduce(each) > limit, np.fmax.reduce(each), 0.0)
+        warn_if_large(None, suspected, 0.0, name, "metres", "cm", "in")
 
 
 def _profiles(reader: ArgumentReader, depths: Any, widths: Any) -> tuple[list[Any], Any, list[Any]]:

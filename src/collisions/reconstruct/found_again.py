@@ -20,11 +20,11 @@ from ..quantities.settings import in_si
 from .central import central
 from .planar import Regime, planar
 from .speeds import speeds
-from .speeds_components import ACCURACY, COMPONENTS
+from .speeds_components import ACCURACY
 
-# What is worked out from an answer that was rounded differs in its later digits; a changed record
-# differs in its first ones.
-_SAME_CONDITION = 0.01
+# A condition that is worked out again from an answer differs by the errors of its differences, and
+# the more the greater it is itself, as it multiplies the rounding of the answer; never by more.
+_SAME_CONDITION, _BY_ROUNDING, _MOST_APART = 1e-4, 1e-14, 0.01
 # More than the rounding of angles in degrees, which a record has in radians.
 _TIE = 1e-12
 _APART = {
@@ -88,7 +88,7 @@ def contradicted_origin(impact: Impact) -> Iterator[str]:
     # Of a restitution that was a function of the impact the record has the number only.
     by_function = origin.method == "speeds" and "restitution" in origin.found
     found = (*again.found, *(("restitution",) if by_function else ()))
-    if set(found) != set(origin.found):
+    if found != tuple(origin.found):
         yield (
             f"solving it again finds {', '.join(found) or 'nothing'}, and it says "
             f"{', '.join(origin.found) or 'nothing'}"
@@ -132,7 +132,8 @@ def contradicted_origin(impact: Impact) -> Iterator[str]:
 
 
 def _same_condition(one: Reconstruction, other: Reconstruction) -> bool:
-    return math.isclose(one.condition, other.condition, rel_tol=_SAME_CONDITION)
+    apart = min(_SAME_CONDITION + _BY_ROUNDING * one.condition, _MOST_APART)
+    return math.isclose(one.condition, other.condition, rel_tol=apart)
 
 
 def _at_a_tie(impact: Impact, origin: Reconstruction) -> bool:
@@ -173,10 +174,7 @@ def components_apart(impact: Impact) -> tuple[float, str] | None:
         if isinstance(one, CollisionsWarning) and one.code in _APART:
             share = float(one.fields["value"])
             from_what, wrong = _APART[one.code]
-            known = " and ".join(
-                f"the {words}"
-                for words in known_in_words(name for name in origin.known if name in COMPONENTS)
-            )
+            known = " and ".join(f"the {words}" for words in known_in_words(one.fields["known"]))
             return share, (
                 f"{known} differ from {from_what} by {100.0 * share:.0f} percent of the impulse, "
                 f"where recorders are accurate to {100.0 * ACCURACY:.0f} percent: {wrong} is wrong"

@@ -313,6 +313,7 @@ def _with_function(
         alone = np.array([answers[0] if answers else np.nan for answers in each]).reshape(shape)
         several = np.array([len(answers) > 1 for answers in each], dtype=bool).reshape(shape)
         faults = (several, Status.AMBIGUOUS), (np.isnan(alone), Status.CONTRADICTORY)
+        function.warn_at(np.where(several, np.nan, alone))
         return _with_number(cases, kind, numbers, say, alone, faults)
     (answers,) = each
     if not answers:
@@ -329,5 +330,6 @@ def _with_function(
             code="ambiguous",
             solutions=answers,
         )
+    function.warn_at(np.float64(answers[0]))
     answer: Value = cases.values(answers[0])
     return answer

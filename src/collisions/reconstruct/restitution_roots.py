@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..messages.errors import CollisionsError, InputError
-from ..messages.warning import quietly
+from ..messages.warning import of_some, quietly
 from ..quantities.units import shown
 from .common import Cases
 from .grid_roots import Narrowing, roots_on_grid
@@ -109,7 +109,8 @@ class RestitutionOf:
         if not closing > 0.0:
             return math.nan
         try:
-            given = self.function(closing)
+            with quietly():
+                given = self.function(closing)
             e = math.nan if isinstance(given, (str, bytes, bool)) else float(given)
         except Exception as error:
             why = (
@@ -129,6 +130,30 @@ class RestitutionOf:
             )
             return math.nan
         return e
+
+    def warn_at(self, closing: Any) -> None:
+        """Ask the function at the closing speeds of an answer, NaN where there is none: what it
+        warns of there is so of the answer, and not of speeds that were tried on the way.
+        """
+        closing = np.asarray(closing)
+        answered = np.isfinite(closing)
+        if self.takes_arrays:
+            self._warn_of(closing[answered], answered)
+            return
+        for index in zip(*np.nonzero(np.atleast_1d(answered)), strict=True):
+            only = np.zeros(answered.shape, dtype=bool)
+            only[index if answered.ndim else ()] = True
+            self._warn_of(float(closing[only][0]), only)
+
+    def _warn_of(self, closing: Any, cases: Any) -> None:
+        """Ask the function at the closing speeds of these cases."""
+        with of_some(cases):
+            try:
+                self.function(closing)
+            except Warning:
+                raise
+            except Exception:
+                return  # it has a value within rounding of here
 
     def complain(self) -> None:
         """Raise if the function had no value where one was needed."""

@@ -16,7 +16,7 @@ import numpy as np
 from ..impact.impact import Impact
 from ..impact.inputs import Inputs
 from ..impact.instant import looked_for
-from ..impact.reconstruction import Reconstruction, bounds_of
+from ..impact.reconstruction import NOT_THIS, Reconstruction, bounds_of
 from ..impact.run import error_of, warn_of_refusals
 from ..kernels.contact_laws import FRICTION
 from ..kernels.status import EPS, Status
@@ -153,6 +153,8 @@ def answers_of(
             slowest = np.fmin.reduce(np.where(goes_back, speed, 0.0), axis=None, initial=0.0)
             backward, whose = min((backward, whose), (float(slowest), label))
             turned = turned | goes_back
+        if function is not None:
+            function.warn_at(np.where(impact.refused, np.nan, impact.closing_speed))
         impacts.append(impact)
         scenes.append(own)
     if cases.shape is not None and np.any(impacts[0].refused):
@@ -208,18 +210,19 @@ def _if_it_slid(scene: ComponentScene, impact: Impact, say: Sentences) -> str:
     """What follows for the speeds of a single case if its contact slid."""
     if scene.slides_both_ways():
         return f"it may have in either direction, since {EITHER_WAY}, and the speeds are open"
+    if len(scene.unknown) == 1 and not np.any(scene.leaves_slip):
+        return NOT_THIS  # beside a known speed no family of answers begins at this one
     signed = [_along(impact, label, scene) for label in "ab"]
     speeds, sides = scene.if_slid([speed / scene.speed_unit for speed in signed])
     ends = [float(speed * scene.speed_unit) for speed in speeds]
-    return " and ".join(
-        bounds_of(
-            {
-                f"speed_{label}": int(np.nan_to_num(_of_size(side, end)))
-                for label, side, end in zip("ab", sides, ends, strict=True)
-            },
-            {f"speed_{label}": _told(end, say) for label, end in zip("ab", ends, strict=True)},
-        )
+    bounds = bounds_of(
+        {
+            f"speed_{label}": int(np.nan_to_num(_of_size(side, end)))
+            for label, side, end in zip("ab", sides, ends, strict=True)
+        },
+        {f"speed_{label}": _told(end, say) for label, end in zip("ab", ends, strict=True)},
     )
+    return " and ".join(bounds) or NOT_THIS
 
 
 def _warn_of_slip(scene: ComponentScene, impact: Impact, cases: Cases) -> None:

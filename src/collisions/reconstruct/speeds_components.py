@@ -385,8 +385,8 @@ class ComponentScene(Scene):
                 ahead = np.minimum(*self.forwards(self.ratio, self.answer)) >= least
                 self.undetermined = self.undetermined | (back & ahead)
                 self.ambiguous = self.ambiguous & ~back
-        told = (self.stated is not None) | decided
-        self.may_slide = sticks & (size >= MAY_SLIDE) & told & self.leaves_slip
+        told = (self.stated is not None) | (decided & self.leaves_slip)
+        self.may_slide = sticks & (size >= MAY_SLIDE) & told
         if self.slid:
             self.ambiguous = self.ambiguous | (sticks & self.no_side & ~decided)
             first, second = (
@@ -888,7 +888,9 @@ class ComponentScene(Scene):
             )
             sentence = f"{who} differ from their best common answer by more than they may, as {why}"
             text = cases.how_many(differ) + text
-            warning = IllConditionedWarning(text, code="recorders_differ", value=worst)
+            warning = IllConditionedWarning(
+                text, code="recorders_differ", value=worst, known=self.names
+            )
             # Refused cases differ the most.
             warn_of_cases(warning, {sentence: cases.each(misfit > ACCURACY)}, _DISAGREE)
         ended = answered & self.ended & (self.misfit > ACCURACY) & np.logical_not(differ)
@@ -904,7 +906,9 @@ class ComponentScene(Scene):
                 for friction, by in ((friction, f"{worst:.0%}"), ("this friction", "more"))
             )
             text = cases.how_many(ended) + text
-            warning = IllConditionedWarning(text, code="friction_differs", value=worst)
+            warning = IllConditionedWarning(
+                text, code="friction_differs", value=worst, known=self.names
+            )
             warn_of_cases(warning, {sentence: cases.each(ended)}, _DISAGREE)
         refused = np.logical_not(answered) & np.isinf(self.misfit) & self.friction_differs()
         refused = refused & np.logical_not(self.undetermined)

@@ -360,7 +360,9 @@ class Search:
             if isinstance(scene, ComponentScene):
                 for one in [scene, *scene.ways]:
                     one.misfit = np.where(np.isfinite(least), least, one.misfit)
-                    one.may_slide = one.may_slide & np.any(fits[: len(found)], axis=0)
+                    if self.regime is None:
+                        # What is stated is in doubt whichever start led to it.
+                        one.may_slide = one.may_slide & np.any(fits[: len(found)], axis=0)
         roots = []
         for i in range(len(starts)):
             condition = answer.condition[i]

@@ -739,6 +739,19 @@ class Sampled(Output):
         return [one + turn * np.rint((middle - np.nanmean(one)) / turn) for one in counted]
 
 
+def unanswered_notes(outputs: Mapping[str, Sampled]) -> Iterator[Note]:
+    """That some cases have none of these outputs, whose figures are of the others."""
+    for name, output in outputs.items():
+        if output.failed:
+            count = output.values.size
+            sentence = (
+                f"{output.failed} of {count} samples ({100.0 * output.failed / count:.3g} %) have "
+                f"no {name!r}, and its figures are of the others: they hold only where there is one"
+            )
+            fields = {"failed": output.failed, "output": name}
+            yield Note(OutOfRangeWarning, sentence, code="failed_cases", fields=fields)
+
+
 def wraps_of(outputs: Mapping[str, Sampled]) -> dict[str, str]:
     """By name of the outputs that look like an angle that jumps, or point to all sides, which."""
     wraps = {name: output._wraps() for name, output in outputs.items()}
