@@ -834,6 +834,33 @@ def test_a_mass_with_a_unit_is_not_asked_for_another():
         assert one.sentence.endswith(said)
 
 
+def test_what_was_given_with_a_unit_is_not_asked_for_another():
+    """A speed known to a reverse solver, a heading, a course; and a question ends with its mark."""
+    a = col.Vehicle(mass=1500, yaw_inertia=2500, x=-2, y=0, heading="720 deg")
+    b = col.Vehicle(mass=1500, yaw_inertia=2500, x=2, y=0, heading=0)
+    (fast, *_) = silent(
+        lambda: reconstruct.speeds(
+            a, b, course_a=0.0, course_b=0.0, restitution=0.1, normal=0.0, point=(0, 0),
+            friction=0.5, delta_v_a="12 mph", speed_b="200 mph",
+        )
+    )  # fmt: skip
+    found = {one.code: one.sentence for one in diagnose(fast, units="us")}
+    assert found["suspect_speed"] == "vehicle B goes at 200.0 mph before; check its unit"
+    assert found["suspect_angle"] == "vehicle A has a heading of 720.0 degrees, 2 turns; check it"
+    turned = silent(
+        lambda: reconstruct.momentum(
+            1500, 1200, course_a="800 deg", course_b=1.5, course_a_after=1.0, course_b_after=1.2,
+            speed_a_after=9.0, speed_b_after=8.0,
+        )
+    )  # fmt: skip
+    (one,) = (one for one in diagnose(turned) if one.code == "suspect_angle")
+    assert one.sentence == "course_a is 800.0 degrees, 2.22 turns; check it"
+    light = silent(lambda: col.linear_central(a.replace(mass=100), b.replace(vx=-3), 0.1))
+    page = silent(lambda: col.report(light, form="markdown"))
+    assert "slugs meant?" in page
+    assert "meant?." not in page
+
+
 def test_one_of_two_answers():
     """Both say that there are two, also when replayed; the others of a batch are counted one by
     one.

@@ -755,13 +755,14 @@ def test_what_the_model_warns_of_is_said_once_with_the_samples_it_is_of():
 
 
 def test_an_output_without_any_answer_has_no_figures():
-    found = posterior(
-        lambda x: {"s": x, "d": np.nan * x},
-        {"x": Normal(0.0, 1.0)},
-        {"s": (1.0, 1.0)},
-        samples=512,
-        seed=1,
-    )
+    with pytest.warns(col.OutOfRangeWarning, match="none of the 512 samples has 'd'"):
+        found = posterior(
+            lambda x: {"s": x, "d": np.nan * x},
+            {"x": Normal(0.0, 1.0)},
+            {"s": (1.0, 1.0)},
+            samples=512,
+            seed=1,
+        )
     output = found["d"]
     assert all(
         math.isnan(one)
@@ -769,6 +770,24 @@ def test_an_output_without_any_answer_has_no_figures():
     )
     assert output.failed == 512
     assert str(output.summary())
+    assert "one case that has an answer" not in str(found.summary())
+
+
+def test_a_plain_output_has_the_unit_that_it_was_observed_in():
+    """In the units of the inputs; one that is not observed has none, and that is said."""
+    found = posterior(
+        lambda v: {"video": v, "twice": 2.0 * v},
+        {"v": Normal("20 mph", "5 mph")},
+        {"video": ("22 mph", "1 mph")},
+        samples=512,
+        seed=1,
+    )
+    assert found["video"].unit == "m/s"
+    assert found["twice"].unit is None
+    text = str(found.summary())
+    (line,) = (one for one in text.splitlines() if one.startswith("  video") and "to" in one)
+    assert line.count("mph") == 2
+    assert "Without a unit, as the model returned plain numbers: twice." in text
 
 
 def test_what_no_sample_shows_has_an_error_of_one_sample():
@@ -1112,6 +1131,8 @@ def test_a_result_that_no_sample_has_is_refused_with_what_to_write():
         assert "'Corolla.speed'" in said
     with pytest.raises(col.NoSolutionError, match="look at what each argument is"):
         found.with_result("before", lambda v: v * math.nan, v=found["Corolla.vx"])
+    with pytest.raises(col.InputError, match=r"v is in a unit of its own.*leave \.to\(\) out"):
+        found.with_result("before", lambda v: v, v=found["Corolla.vx"].to("mph"))
     turned = found.with_result("before", lambda v: -v, "m/s", v=found["Corolla.vx"])
     assert turned["before"].mean == pytest.approx(-found["Corolla.vx"].mean, rel=1e-12)
 

@@ -3,6 +3,7 @@ once where it matters.
 """
 
 import json
+import math
 import warnings
 
 import matplotlib.pyplot as plt
@@ -12,6 +13,7 @@ import pytest
 import collisions as col
 from collisions import plot, reconstruct, reference
 from collisions.messages.warning import warn, warn_of_cases
+from collisions.travel import Tyres
 from collisions.uncertainty import Interval, Normal, Uniform, propagate
 
 A = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, vx=12.0, x=-2.0, y=0.6, heading=0.0)
@@ -468,3 +470,68 @@ def test_what_only_some_samples_of_a_posterior_have_is_said(kept):
         page,
     ):
         assert said in place
+
+
+TYRES = {f"tyres_{label}": Tyres(0.7, 0.0, 2.7, 1.5) for label in "ab"} | {"duration": 0.1}
+CONTACT = {"normal": 0.0, "point": (0.0, 0.0), "friction": math.inf, "on_failure": "nan"}
+
+
+@pytest.mark.parametrize(
+    "solver",
+    [
+        lambda a: col.eccentric(a, B, 0.1, **CONTACT),
+        lambda a: col.eccentric(a, B, 0.1, **CONTACT, **TYRES),
+        lambda a: col.time_resolved(a, B, 0.1, duration=0.1, geometry="fixed", **CONTACT),
+        lambda a: col.solve(a, B, 0.1, tolerance=0.0, **CONTACT),
+    ],
+    ids=["eccentric", "with tyres", "in time", "solve"],
+)
+def test_a_contact_that_sticks_by_an_infinite_friction_is_noted_of_every_model(solver):
+    def model(speed):
+        impact = solver(A.replace(vx=speed))
+        return {"ratio": abs(impact.impulse_ratio)}
+
+    found, caught = quiet(
+        lambda: propagate(model, {"speed": Normal(12.0, 1.0)}, samples=64, seed=1)
+    )
+    assert np.all(found["ratio"].values > 0.3)
+    assert [one.message.code for one in caught] == ["may_slide"]
+    assert found.statements[0].startswith("64 of 64 cases")
+
+
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+@pytest.mark.parametrize("study", ["posterior", "fit"])
+def test_what_works_back_through_an_instant_says_what_that_leaves_out(study):
+    """Of the model that the answer is of, and not of a run forwards."""
+    contact = CONTACT | {"friction": 0.5}
+    unknowns = {"speed": Uniform(0.0, 30.0)}
+    observed = {"delta_v": (6.0, 0.3)}
+
+    def by(solver, **more):
+        return lambda speed: {
+            "delta_v": solver(A.replace(vx=speed), B, 0.1, **contact, **more).a.delta_v
+        }
+
+    def said(model, **finer):
+        options = {"samples": 512, "seed": 1} if study == "posterior" else {}
+        found = getattr(reconstruct, study)(model, unknowns, observed, **finer, **options)
+        texts = [one for one in found.statements if "solved every case" in one]
+        assert all(one[1:] in " ".join(str(found.summary()).split()) for one in texts)
+        assert all(one in found.to_dict()["statements"] for one in texts)
+        return texts
+
+    instant, lasting = by(col.eccentric), by(col.eccentric, **TYRES)
+    in_time = by(col.time_resolved, duration=0.1, geometry="fixed", steps=20)
+    (text,) = said(instant)
+    assert text.startswith("eccentric solved every case as an instant, which leaves out the tyres")
+    (text,) = said(lasting)
+    assert text.startswith(
+        "eccentric solved every case with the tyres, which leaves out that point"
+    )
+    assert text.endswith("finer= with time_resolved has that too")
+    (text,) = said(by(col.eccentric, outside_b=(100.0, 0.0)))
+    assert "as an instant with the impulses from outside" in text
+    assert not said(in_time)
+    assert not said(instant, finer=in_time)
+    forwards = propagate(instant, {"speed": Normal(12.0, 1.0)}, samples=64, seed=1)
+    assert not forwards.statements

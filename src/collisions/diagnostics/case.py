@@ -173,7 +173,8 @@ class ImpactCase(_Case):
                 side.pdof,
                 side.before.heading,
                 mass_has_unit="mass" in (side.before.given or {}),
-                speed_has_unit=_speed_has_unit(side.before),
+                speed_has_unit=_speed_has_unit(side.before)
+                or isinstance((self.answer.inputs.given or {}).get(f"speed_{label}"), str),
             )
             for label, who, side in self.sides
         }

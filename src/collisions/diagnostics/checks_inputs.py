@@ -198,11 +198,16 @@ def suspect_distance(case: ImpactCase) -> Iterator[Measured]:
     "set here: a full turn, the limit of a number without a unit as well; degrees as rad",
 )
 def suspect_angle(case: Case) -> Iterator[Measured]:
-    angles: list[tuple[str, str, float | None]] = []
+    angles: list[tuple[str, str, float | None, bool]] = []
     if isinstance(case, ImpactCase):
-        angles.append(("", "the normal was given as", case.answer.inputs.bare_normal))
+        angles.append(("", "the normal was given as", case.answer.inputs.bare_normal, False))
         angles += [
-            (label, f"{who} has a heading of", side.before.heading)
+            (
+                label,
+                f"{who} has a heading of",
+                side.before.heading,
+                "heading" in (side.before.given or {}),
+            )
             for label, who, side in case.sides
         ]
     else:
@@ -212,12 +217,14 @@ def suspect_angle(case: Case) -> Iterator[Measured]:
                 for name in (f"course_{label}", f"course_{label}_after")
             }
             name = max(courses, key=lambda name: abs(courses[name] or 0.0))
-            angles.append((label, f"{name} is", courses[name]))
-    for label, what, angle in angles:
+            given = (case.answer.given or {}).get(name)
+            angles.append((label, f"{name} is", courses[name], isinstance(given, str)))
+    for label, what, angle, has_unit in angles:
         if angle is not None:
-            sentence = (
-                f"{what} {angle:.6g} rad, {abs(angle) / math.tau:.3g} turns; were degrees meant?"
-            )
+            turns = f"{abs(angle) / math.tau:.3g} turns"
+            sentence = f"{what} {angle:.6g} rad, {turns}; were degrees meant?"
+            if has_unit:
+                sentence = f"{what} {case.text(angle, 'angle')}, {turns}; check it"
             yield Measured(abs(angle), sentence, label, rounding=off_by(math.tau))
 
 
@@ -292,7 +299,7 @@ def suspect_duration(case: Case) -> Iterator[Measured]:
     times = case.duration / CONTACT_DURATION.high
     sentence = (
         f"the contact is taken to last {case.duration:.6g} s, {times:.3g} times what was "
-        "published; were milliseconds meant?"
+        "published; check it and its unit"
     )
     yield Measured(times, sentence)
 

@@ -217,7 +217,7 @@ def fit(
         fits = []
         for one in candidates:
             where = _left_open(one, ends)
-            notes = _said_at(inputs, where, inputs.model)
+            notes = _said_at(inputs, where, inputs.model, worked_back=True)
             if dearer is not None:
                 # No figure rests on what the first model says at the answer of the finer one.
                 notes += tuple(
@@ -278,12 +278,16 @@ def _left_open(found: _Candidate, ends: Ends) -> Any:
     return np.unique(np.concatenate([points, np.where(known, found.point, here)]), axis=0)
 
 
-def _said_at(inputs: _Inputs, points: Any, model: Model) -> tuple[Note, ...]:
-    """The warnings that a model gives at these points."""
+def _said_at(
+    inputs: _Inputs, points: Any, model: Model, *, worked_back: bool = False
+) -> tuple[Note, ...]:
+    """The warnings that a model gives at these points, of the model ``worked_back`` through also
+    what it leaves out.
+    """
     model.noted.clear()
     values = {name: np.array(points[:, j]) for j, name in enumerate(inputs.units)}
     model(values, len(points), check=False)
-    return notes_of_samples(model.noted)
+    return notes_of_samples(model.noted, worked_back=worked_back)
 
 
 class _Inputs(NamedTuple):

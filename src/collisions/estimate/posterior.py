@@ -429,7 +429,7 @@ class _Problem:
         model = self.finer or self.model
         model.noted.clear()  # of the way to the posterior
         values, answers = self.computed(model, scores, check=False)
-        notes = notes_of_samples(model.noted)
+        notes = notes_of_samples(model.noted, worked_back=True)
         calls = {"model": sum(one.calls for one in islands)}
         if self.finer is None:
             calls["model"] += len(scores)
@@ -455,8 +455,12 @@ class _Problem:
             name: PosteriorOutput(name, self.units[name] or None, column, labels)
             for name, column in values.items()
         }
+        # A plain number has the unit that it was observed in.
+        observed_in = {row.name: row.reading.value.unit for row in self.rows}
         predicted = {
-            name: PosteriorOutput(name, self.model.units[name], column, labels)
+            name: PosteriorOutput(
+                name, self.model.units[name] or observed_in.get(name) or None, column, labels
+            )
             for name, column in answers.items()
         }
         notes += *unanswered_notes(predicted), *wrap_notes(wraps_of(predicted | unknowns))

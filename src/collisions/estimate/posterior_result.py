@@ -25,6 +25,7 @@ from ..uncertainty.probability import holds
 from ..uncertainty.result import (
     Sampled,
     Shares,
+    bare_notes,
     correlations,
     outputs_part,
     unanswered_notes,
@@ -443,7 +444,9 @@ class Posterior(SpeedsFound, Summarized):
             Part(priors, "Priors"),
             Part([("log evidence", f"{self.log_evidence:.4g} ± {self.log_evidence_error:.2g}")]),
         ]
-        notes = map(as_sentence, self.statements)
+        unseen = {k: one for k, one in self.predicted.items() if k not in self.observed}
+        bare = bare_notes([*unseen.values(), *self.results.values()])
+        notes = [*map(as_sentence, self.statements), *bare]
         return Summary(f"Given the evidence and the priors ({self.samples} samples)", parts, notes)
 
     def _sources(self) -> dict[str, str]:

@@ -17,7 +17,7 @@ from ..quantities.settings import in_si, units_required
 from ..quantities.units import rendered, shown, si_unit
 from ..uncertainty.distributions import Distribution, Interval
 from ..uncertainty.model import Model
-from ..uncertainty.result import Sampled
+from ..uncertainty.result import InUnit, Sampled
 from ..uncertainty.sampling import Joint
 from .fit_result import with_unit
 
@@ -44,6 +44,14 @@ def worked_out(
         )
     if unit is not None and not (isinstance(unit, str) and unit in KIND_OF):
         raise _bad_unit(unit)
+    for key, one in arguments.items():
+        if isinstance(one, InUnit):
+            raise InputError(
+                f"{as_code(key)} is in a unit of its own, by `.to()`, and the function is called "
+                "with samples in SI; leave `.to()` out, as `found['speed_a']`",
+                code="bad_argument",
+                argument=key,
+            )
     drawn = {key: one for key, one in arguments.items() if isinstance(one, Distribution)}
     sampled = {key: one for key, one in arguments.items() if isinstance(one, Sampled)}
     for key, one in arguments.items():

@@ -26,8 +26,8 @@ from .models import (
     read_eccentric,
     read_for_solve,
 )
+from .noted import noted
 from .run import solve_inputs
-from .sticking import noted
 from .time_resolved_inputs import Geometry, read_contact_time
 
 if TYPE_CHECKING:
@@ -359,7 +359,7 @@ def eccentric(
         arguments = a, b, restitution, normal, point, tangential, law
         more = {"incomplete": incomplete, "outside_a": outside_a, "outside_b": outside_b}
         inputs = read_eccentric(arguments, duration, tyres_a, tyres_b, **more)
-        return build(inputs, solve_inputs(ECCENTRIC, inputs, on_failure, threads, progress))
+        return noted(build(inputs, solve_inputs(ECCENTRIC, inputs, on_failure, threads, progress)))
     outside = None if outside_a is outside_b is None else (outside_a, outside_b)
     return _solve(
         ECCENTRIC,
@@ -545,7 +545,7 @@ def time_resolved(
     }
     others |= {"tyres_a": tyres_a, "tyres_b": tyres_b}
     inputs = read_contact_time(a, b, restitution, normal, point, friction, spring | others)
-    return build(inputs, solve_inputs(TIME_RESOLVED, inputs, on_failure, threads, progress))
+    return noted(build(inputs, solve_inputs(TIME_RESOLVED, inputs, on_failure, threads, progress)))
 
 
 @hinted

@@ -22,6 +22,8 @@ from .marked import plain
 SELDOM = 0.005
 # Codes of the warnings that say why cases have no answer.
 NO_ANSWER = frozenset({"refused_cases", "several_orders", "stuck_or_slid", "friction_differs"})
+# Of a statement for those alone who work back through a model from what was observed.
+WORKED_BACK = "worked_back"
 # Of the statement that what comes in another order has no answer.
 ONE_ORDER = "one_order"
 
@@ -201,14 +203,17 @@ def _by_case(where: Any, count: int) -> Any:
     return np.any(where, axis=tuple(i for i, size in enumerate(shape) if size != count))
 
 
-def notes_of_samples(calls: Calls) -> tuple[Note, ...]:
+def notes_of_samples(calls: Calls, *, worked_back: bool = False) -> tuple[Note, ...]:
     """What was noted over all samples of a study: each warning once, with the number and the share
-    of the samples it is of where those are known.
+    of the samples it is of where those are known. ``worked_back`` says that the study works back
+    through its model.
     """
     total = sum(count for count, _ in calls)
     found: dict[tuple[Any, ...], tuple[int, int]] = {}
     for _, noted in calls:
         for *key, cases, uncounted in noted:
+            if key[2] == WORKED_BACK and not worked_back:
+                continue
             known, more = found.get(tuple(key), (0, 0))
             found[tuple(key)] = known + cases, more + uncounted
     notes = []

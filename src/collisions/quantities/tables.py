@@ -239,11 +239,12 @@ _NAME = re.compile(r"`|[a-z]\w*(?:[_=(\[]|\.\w)")
 
 
 def as_sentence(text: str) -> str:
-    """A statement as a sentence of its own, with a capital and a full stop; a name at its
-    beginning, such as ``energy_loss`` or ``a.delta_v``, stays as it is written.
+    """A statement, or a question, as a sentence of its own, with a capital and its stop; a name at
+    its beginning, such as ``energy_loss`` or ``a.delta_v``, stays as it is written.
     """
     begins = text[:1] if _NAME.match(text) else text[:1].upper()
-    return f"{begins}{text[1:].rstrip('.')}."
+    ends = "" if text.endswith("?") else "."
+    return f"{begins}{text[1:].rstrip('.')}{ends}"
 
 
 def all_numbers(rows: Iterable[tuple[str, str]]) -> Part:

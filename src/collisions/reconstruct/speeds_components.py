@@ -876,6 +876,7 @@ class ComponentScene(Scene):
         misfit = np.where(self.ended, self._own_misfit(), self.misfit) if self.slid else self.misfit
         differ = answered & (misfit > ACCURACY)
         who = " and ".join(self.names)
+        up_to = "" if cases.shape is None else "up to "
         if np.any(differ):
             worst = float(np.max(np.where(answered, misfit, 0.0), initial=0.0))
             why = (
@@ -883,7 +884,7 @@ class ComponentScene(Scene):
                 "the geometry is wrong"
             )
             text = (
-                f"{who} differ from their best common answer by {worst:.0%} of the impulse, "
+                f"{who} differ from their best common answer by {up_to}{worst:.0%} of the impulse, "
                 f"where {why}"
             )
             sentence = f"{who} differ from their best common answer by more than they may, as {why}"
@@ -899,11 +900,14 @@ class ComponentScene(Scene):
             friction = (
                 f"`friction={float(self.bound):.4g}`" if cases.shape is None else "this friction"
             )
-            text, sentence = (
-                f"a contact that slides with {friction} differs from {who} by {by} of the impulse, "
-                f"where the stated accuracy of recorders is {ACCURACY:.0%}: the friction, one of "
-                "them or the geometry is wrong"
-                for friction, by in ((friction, f"{worst:.0%}"), ("this friction", "more"))
+            wrong = "the friction, one of them or the geometry is wrong"
+            text = (
+                f"a contact that slides with {friction} differs from {who} by {up_to}{worst:.0%} "
+                f"of the impulse, where the stated accuracy of recorders is {ACCURACY:.0%}: {wrong}"
+            )
+            sentence = (
+                f"a contact that slides with this friction differs from {who} by more than the "
+                f"stated accuracy of recorders, {ACCURACY:.0%} of the impulse: {wrong}"
             )
             text = cases.how_many(ended) + text
             warning = IllConditionedWarning(

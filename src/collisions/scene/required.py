@@ -249,8 +249,8 @@ def _limits(
         # Draws without an answer are counted beside, and tell in the differences.
         for one in noted:
             if one.code != "refused_cases":
-                (note,) = notes_of_samples([(count, [one])])
-                found.setdefault((one.sentence, one.code), []).append((level, note))
+                for note in notes_of_samples([(count, [one])]):
+                    found.setdefault((one.sentence, one.code), []).append((level, note))
     for (sentence, code), places in found.items():
         many = [note.fields.get("cases", count) for _, note in places]
         of, most, share = "in draws that are not counted ", None, None

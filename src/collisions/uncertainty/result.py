@@ -48,6 +48,9 @@ from .probability import Again, Condition, holds, holds_of_one
 COVERAGE = 0.95
 _OF_A_JUMP = 4.0  # times the standard error: twice as far as two errors should reach
 _MOST_BINS = 10000
+# Heads of figures that are none.
+_ONE_ANSWER = "in the one case that has an answer, so no spread is known"
+_NO_ANSWER = "no case has an answer"
 
 
 # A smaller spread, relative to the mean or in SI for results that should be 0, is rounding.
@@ -366,9 +369,10 @@ class Output(Summarized):
         low, high = self.interval()
         unit = f" {self.unit}" if self.unit else ""
         mean, std = format_value(self.mean), format_value(self.std)
+        if math.isnan(self.mean):
+            return self.name, _NO_ANSWER
         if math.isnan(self.std):
-            why = "in the one case that has an answer, so no spread is known"
-            return self.name, f"{mean}{unit} {why}"
+            return self.name, f"{mean}{unit} {_ONE_ANSWER}"
         return self.name, f"{mean} ± {std}{unit}, 95 percent from {low:.6g} to {high:.6g}{unit}"
 
     def record(self) -> dict[str, Any]:
@@ -395,7 +399,7 @@ class Output(Summarized):
 
     def _summary(self, numbers: Cells) -> Summary:
         parts = [outputs_part({self.name: self}, numbers), all_numbers([self.row()])]
-        return Summary(f"Given {self._given()}", parts, _notes([self]))
+        return Summary(f"Given {self._given()}", parts, bare_notes([self]))
 
     def _given(self) -> str:
         """What the figures are given, for a title."""
@@ -747,6 +751,8 @@ def unanswered_notes(outputs: Mapping[str, Sampled]) -> Iterator[Note]:
             sentence = (
                 f"{output.failed} of {count} samples ({100.0 * output.failed / count:.3g} %) have "
                 f"no {name!r}, and its figures are of the others: they hold only where there is one"
+                if output.failed < count
+                else f"none of the {count} samples has {name!r}, and it has no figures"
             )
             fields = {"failed": output.failed, "output": name}
             yield Note(OutOfRangeWarning, sentence, code="failed_cases", fields=fields)
@@ -1028,7 +1034,7 @@ class Propagation(Summarized):
         )
         parts = [outputs_part(self.outputs, numbers), stated, all_numbers(self._rows())]
         return Summary(
-            title, parts, [*map(as_sentence, self.statements), *_notes(self.outputs.values())]
+            title, parts, [*map(as_sentence, self.statements), *bare_notes(self.outputs.values())]
         )
 
     def _texts(self) -> Iterator[str]:
@@ -1057,12 +1063,8 @@ def figures(output: Output, numbers: Numbers, kind: str | None = None) -> list[t
             ("range that holds 95 percent", ends),
         ]
     if math.isnan(std[0]):
-        return [
-            (
-                "in the one case that has an answer, so no spread is known",
-                numbers.answer(mean[0], kind),
-            )
-        ]
+        head = _NO_ANSWER if math.isnan(mean[0]) else _ONE_ANSWER
+        return [(head, numbers.answer(mean[0], kind))]
     if not varies(output, kind):
         return [("the same in every case", numbers.answer(mean[0], kind))]
     return [
@@ -1102,7 +1104,7 @@ def outputs_part(outputs: Mapping[str, Output], numbers: Cells, heading: str = "
     )
 
 
-def _notes(outputs: Iterable[Output]) -> list[str]:
+def bare_notes(outputs: Iterable[Output]) -> list[str]:
     """The sentence below the figures of outputs of which the model returned bare numbers."""
     bare = [output.name for output in outputs if output.unit is None]
     return (

@@ -27,7 +27,15 @@ from ..quantities.directions import Angle, angle_of, direction
 from ..quantities.reading import ArgumentReader, broadcast, widened
 from ..quantities.refusals import must_be
 from ..quantities.settings import in_si, units_required
-from ..quantities.tables import Cells, Part, Summarized, Summary, all_numbers, label_of
+from ..quantities.tables import (
+    Cells,
+    Part,
+    Sentences,
+    Summarized,
+    Summary,
+    all_numbers,
+    label_of,
+)
 from ..quantities.units import Input, Pair, Texts, Value, rendered, shown, texts_of
 
 _isfinite = math.isfinite
@@ -745,7 +753,9 @@ def _read_fields(
     broadcast(read if pin is None else {**read, "pivot[0]": pin[0], "pivot[1]": pin[1]})
     if pin is not None:
         mass, vx, vy, yaw_rate, yaw_inertia, x, y, _ = read.values()
-        read["vx"], read["vy"] = _pinned_velocity(pin, mass, vx, vy, yaw_rate, yaw_inertia, x, y)
+        read["vx"], read["vy"] = _pinned_velocity(
+            pin, mass, vx, vy, yaw_rate, yaw_inertia, x, y, reader.texts
+        )
     return (*read.values(), pin, name, reader.texts)
 
 
@@ -758,6 +768,7 @@ def _pinned_velocity(
     yaw_inertia: Any,
     x: Any,
     y: Any,
+    texts: Texts,
 ) -> tuple[Any, Any]:
     """Velocity (vx, vy) of a pinned body: computed if not given, else compared; arrays are compared
     by the solver.
@@ -789,10 +800,15 @@ def _pinned_velocity(
                     argument="yaw_rate",
                 )
             if (vx != 0.0 or vy != 0.0) and not_about_pivot(vx, vy, yaw_rate, x, y, *pin):
+                say = Sentences(texts_of(texts))
+                written, turning = (
+                    ", ".join(say(part, "speed", figures) for part in velocity)
+                    for velocity, figures in (((vx, vy), 6), ((wanted_x, wanted_y), 10))
+                )
                 raise InputError(
-                    f"vx, vy = `({vx:g}, {vy:g})` m/s cannot be the velocity of a body that turns "
-                    f"about its pivot: yaw rate times arm gives `({wanted_x + 0.0:.10g}, "
-                    f"{wanted_y + 0.0:.10g})` m/s; leave vx and vy out, or correct yaw_rate",
+                    f"vx, vy = ({written}) cannot be the velocity of a body that turns about its "
+                    f"pivot: yaw rate times arm gives ({turning}); leave vx and vy out, or correct "
+                    "yaw_rate",
                     code="pinned_velocity",
                     argument="vx",
                 )

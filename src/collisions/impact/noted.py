@@ -1,0 +1,63 @@
+"""What is noted of a forward impact within a study: that an infinite friction made a contact stick
+that may have slid, and what its model leaves out.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ..kernels.contact_laws import FRICTION
+from ..messages.errors import IllConditionedWarning
+from ..messages.warning import WORKED_BACK, in_study, state_of_study, warn_of_cases
+from ..reference import INTER_VEHICLE_FRICTION
+from .impact import Impact
+
+# Models that a caller chose; ``solve`` chooses by a tolerance.
+_INSTANTS = ("linear_central", "oblique_central", "eccentric")
+_LEFT = (
+    "as an instant, which leaves out the tyres and the motion while the contact lasts; `left_out` "
+    "says of one case how much that is"
+)
+_LEFT_BY_PUSH = (
+    "as an instant with the impulses from outside, which leaves out the motion while the contact "
+    "lasts; `left_out` says of one case how much that is"
+)
+_LEFT_BY_TYRES = (
+    "with the tyres, which leaves out that point and normal move on while the contact lasts; "
+    "`finer=` with `time_resolved` has that too"
+)
+
+
+def noted(impact: Impact) -> Impact:
+    """The impact. Within ``propagate`` and the like its samples are noted that stick because of an
+    infinite friction, at a ratio at which contacts between vehicles slide; and within ``posterior``
+    and ``fit``, which work back through it, what its model leaves out.
+
+    Outside a study ``diagnose`` finds it: there a single impact is often tried with and without.
+    """
+    if not in_study():
+        return impact
+    inputs = impact.inputs
+    if inputs.model in _INSTANTS:
+        rest = _LEFT_BY_TYRES if inputs.tyres else _LEFT_BY_PUSH if inputs.pushed else _LEFT
+        state_of_study(f"{inputs.model} solved every case {rest}", WORKED_BACK)
+    bound = inputs.rule_value
+    if (type(bound) is float and bound < math.inf) or inputs.rule != FRICTION:
+        return impact
+    movable = np.isfinite(inputs.a.mass) & np.isfinite(inputs.b.mass)
+    endless = np.isinf(bound) & movable & np.logical_not(impact.refused)
+    if not np.any(endless):
+        return impact
+    least = INTER_VEHICLE_FRICTION.low
+    sticks = endless & (np.abs(impact.impulse_ratio) >= least) & (impact.regime == "sticking")
+    if np.any(sticks):
+        text = (
+            f"`friction=inf` makes the contact stick at an impulse ratio of {least:g} or "
+            "more, at which contacts between vehicles slide "
+            "(reference.INTER_VEHICLE_FRICTION): if it slid, this is not the impact. Give "
+            "the friction with its uncertainty"
+        )
+        warn_of_cases(IllConditionedWarning(text, code="may_slide"), {text: sticks})
+    return impact
