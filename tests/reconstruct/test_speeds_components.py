@@ -271,7 +271,8 @@ def test_closed_form_and_condition_of_point_masses():
     assert found.b.before.speed == pytest.approx(float(exact[1]), rel=1e-14)
     assert found.reconstruction.condition == pytest.approx(float(condition), rel=1e-12)
     # With a speed known the forward component alone tells the other: one equation.
-    (one,) = speeds(a, b, **contact, speed_a=float(exact[0]), delta_v_forward_a=-7.0)
+    with pytest.warns(col.IllConditionedWarning, match="this is not the impact"):
+        (one,) = speeds(a, b, **contact, speed_a=float(exact[0]), delta_v_forward_a=-7.0)
     assert one.b.before.speed == pytest.approx(float(exact[1]), rel=1e-13)
     by_b = 1 / abs(math.cos(2.0 - 0.3)) / float(share)
     by_a = abs(1 / math.cos(2.0 - 0.3)) * float(exact[0])
@@ -836,7 +837,9 @@ def test_beside_an_energy_a_contact_that_stuck_has_the_condition_of_one_that_sli
     ],
 )  # fmt: skip
 def test_what_an_energy_may_differ_by_beside_a_contact_that_stuck(factor, said, with_tyres):
-    """A fifth in silence, and three fifths at most, while the components alone tell the speeds."""
+    """A fifth without a word of it, and three fifths at most, while the components alone tell the
+    speeds. That it stuck at this ratio is stated, and warned of.
+    """
     hit = col.eccentric(
         body(9.0, 0.1, **fields(A)), body(16.0, 1.5, **fields(B)), 0.1, **CONTACT, friction=math.inf
     )
@@ -853,7 +856,8 @@ def test_what_an_energy_may_differ_by_beside_a_contact_that_stuck(factor, said, 
             assert refused.value.code == said
             return
         (found,) = speeds(A, B, **given, **known)
-    assert [one.message.code for one in caught] == ([said] if said else [])
+    codes = {one.message.code for one in caught}
+    assert codes == ({"may_slide", said} if said else {"may_slide"})
     assert found.a.before.speed == pytest.approx(9.0, abs=1e-6)
     assert found.b.before.speed == pytest.approx(16.0, abs=1e-6)
 

@@ -144,7 +144,9 @@ def test_the_doubt_is_said_whatever_else_is_known(beside, lasting):
         )
     )
     assert "may_slide" in said
-    assert any("taken to stick" in statement for statement in study.statements)
+    (text,) = (one for one in study.statements if "taken to stick" in one)
+    assert "slid='bound'" not in text  # it is not taken beside these
+    assert ("one end of a family" in text) == (not beside.startswith("speed"))
 
 
 def test_what_differs_from_components_is_named():
@@ -242,8 +244,11 @@ def test_an_energy_settles_it():
     with pytest.raises(col.NoSolutionError, match="fit energy_loss = 7786") as caught:
         back(friction=math.inf, energy_loss=0.2 * stuck.energy_loss)
     assert caught.value.code == "contradictory"
-    with pytest.warns(col.IllConditionedWarning, match="energy_loss and delta_v_forward_a"):
+    with pytest.warns(col.IllConditionedWarning) as said:
         back(friction=math.inf, energy_loss=crossing().energy_loss, regime="sticking")
+    assert sorted(codes(said)) == ["may_slide", "recorders_differ"]
+    (differ,) = (str(one.message) for one in said if one.message.code == "recorders_differ")
+    assert "energy_loss and delta_v_forward_a" in differ
     losses = np.array([crossing().energy_loss, crossing(15.0).energy_loss, 1.0])
     with pytest.warns(col.CollisionsWarning, match="1 of 3"):
         (many,) = back(friction=math.inf, energy_loss=losses)
@@ -979,3 +984,46 @@ def test_beside_a_speed_a_bound_lies_on_the_side_of_the_one_that_slid():
         else:
             assert abs(beyond) <= 2e-3 * impact.closing_speed
     assert open_ >= 5
+
+
+def test_beside_a_known_speed_nothing_is_said_of_the_friction_if_it_slid():
+    """Two cars that slid at 0.56, which beside the speed of A a contact that sticks at 0.48 shows:
+    friction was more than that, and the other speed another one.
+    """
+    a = col.Vehicle(mass=1500, yaw_inertia=2500, x=-2.0, y=-0.2, heading=0.0)
+    b = col.Vehicle(mass=1200, yaw_inertia=1800, x=2.0, y=0.5, heading=-1.7026)
+    courses = {"course_a": 0.0, "course_b": -1.7026}
+    contact = {"normal": -0.23, "point": (0.0, 0.2), "restitution": 0.1}
+    before = [
+        col.Vehicle.from_speed(
+            mass=one.mass, yaw_inertia=one.yaw_inertia, x=one.x, y=one.y, heading=one.heading,
+            speed=speed, course=one.heading,
+        )
+        for one, speed in ((a, 13.3), (b, 24.1))
+    ]  # fmt: skip
+    hit = col.eccentric(*before, friction=0.56, **contact)
+    assert hit.regime == "sliding"
+    known = recorded(hit, "b") | {"speed_a": 13.3, "friction": math.inf, "regime": "sticking"}
+    known |= courses | contact
+    with pytest.warns(col.IllConditionedWarning) as caught:
+        (found,) = speeds(a, b, **known)
+    (said,) = (str(one.message) for one in caught if one.message.code == "may_slide")
+    assert said.endswith("If it slid, this is not the impact")
+    (finding,) = (one for one in diagnose(found) if one.code == "may_slide")
+    assert finding.sentence.endswith("if it slid, this is not the impact")
+    assert abs(found.impulse_ratio) < 0.56
+    # Nor is it one end of a family, in a batch and in a study.
+    with pytest.warns(col.IllConditionedWarning) as caught:
+        speeds(a, b, **known | {"speed_a": np.array([13.3, 13.4])})
+    assert all("family" not in str(one.message) for one in caught)
+    assert any("this is not the impact" in str(one.message) for one in caught)
+
+
+def test_a_page_of_sliders_says_what_is_a_bound():
+    """And that speeds which do not move were found."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        (end,) = back(friction=0.45, slid="bound")
+    page = str(col.what_if(end, {"restitution": (0.0, 0.3)}))
+    assert "The contact slid, or may have: the speed of B is at least" in page
+    assert "Given or found, not moved" in page

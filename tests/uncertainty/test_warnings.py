@@ -535,3 +535,21 @@ def test_what_works_back_through_an_instant_says_what_that_leaves_out(study):
     assert not said(instant, finer=in_time)
     forwards = propagate(instant, {"speed": Normal(12.0, 1.0)}, samples=64, seed=1)
     assert not forwards.statements
+
+
+def test_profiles_that_do_not_go_together_are_refused_as_such():
+    with pytest.raises(col.ShapeError, match=r"depths\[0\] \(3,\), depths\[1\] \(2,\)"):
+        reconstruct.crush_energy(1.5, [np.full(3, 3.0), np.full(2, 0.3)], 4e4, 6e5)
+
+
+def test_whatever_a_function_of_restitution_warns_of_is_of_the_answer():
+    """A warning of bare units in it comes once, not for each speed that is tried."""
+
+    def restitution(speed):
+        reconstruct.crush_energy(150.0, [0.3, 0.3], 4e4, 6e5)
+        return 0.3 * np.exp(-np.asarray(speed) / 10.0)
+
+    _, caught = quiet(
+        lambda: reconstruct.inline_closing_speed(1500, 1200, restitution, delta_v_b=4.05)
+    )
+    assert [one.message.code for one in caught] == ["suspect_units"]

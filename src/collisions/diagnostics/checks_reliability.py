@@ -454,11 +454,10 @@ def may_slide(case: ImpactCase) -> Iterator[Measured]:
         return
     ratio = abs(impact.impulse_ratio)
     slid = if_it_slid(impact)
-    bounds: list[str] = []
+    then = NOT_THIS if origin is not None else f"friction was less than that, and {NOT_THIS}"
     if slid is not None and slid.reconstruction is not None:
         speeds = {name: case.text(getattr(slid, name), "speed") for name in ("speed_a", "speed_b")}
-        bounds = bounds_of(slid.reconstruction.one_sided or {}, speeds)
-    then = " and ".join(bounds) or NOT_THIS
+        then = " and ".join(bounds_of(slid.reconstruction.one_sided or {}, speeds)) or NOT_THIS
     sentence = (
         f"to stick, the contact needs an impulse ratio of {ratio:.2f}, and contacts between "
         f"vehicles slide from {INTER_VEHICLE_FRICTION.low:g} on; if it slid, {then}"

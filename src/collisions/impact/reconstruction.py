@@ -327,8 +327,8 @@ def how_many(answers: float) -> str:
     return "a whole range of impacts" if answers == math.inf else f"{answers} impacts"
 
 
-# What follows of a contact that was taken to stick, where no bound of a speed does.
-NOT_THIS = "friction was less than that, and this is not the impact"
+# What follows if a contact that was taken to stick slid, where no bound of a speed does.
+NOT_THIS = "this is not the impact"
 
 
 def bounds_of(sides: Mapping[str, int], speeds: Mapping[str, str]) -> list[str]:

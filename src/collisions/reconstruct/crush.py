@@ -132,14 +132,14 @@ def crush_energy(
         "stiffness_b": (stiffness_b, b),
         "force_angle": (force_angle, angle.value),
     }
-    _warn_if_large(depths, crush, _DEEPEST, "depths", np.fmax)
-    _warn_if_large(widths, whole if isinstance(whole, list) else [whole], _WIDEST, "widths", np.add)
     amounts = {f"depths[{i}]": depth for i, depth in enumerate(crush)} | {
         f"widths[{i}]": gap for i, gap in enumerate(gaps)
     }
     amounts["stiffness_a"] = a
     numbers = amounts | {"stiffness_b": b, "force_angle": angle.value}
     cases = Cases.of(numbers)
+    _warn_if_large(depths, crush, _DEEPEST, "depths", np.fmax)
+    _warn_if_large(widths, whole if isinstance(whole, list) else [whole], _WIDEST, "widths", np.add)
     cosine = angle.beside((*amounts.values(), b)).direction[0]
     oblique = np.less(cosine, math.cos(_MOST_OBLIQUE) * (1.0 - 1e-12)) & np.greater(
         cosine, _RIGHT_ANGLE

@@ -24,7 +24,7 @@ from .speeds_components import ACCURACY
 
 # A condition that is worked out again from an answer differs by the errors of its differences, and
 # the more the greater it is itself, as it multiplies the rounding of the answer; never by more.
-_SAME_CONDITION, _BY_ROUNDING, _MOST_APART = 1e-4, 1e-14, 0.01
+_SAME_CONDITION, _BY_ROUNDING, _MOST_APART = 1e-4, 1e-12, 0.01
 # More than the rounding of angles in degrees, which a record has in radians.
 _TIE = 1e-12
 _APART = {

@@ -75,7 +75,7 @@ class RestitutionOf:
         )
 
     def _of_array(self, closing: Any) -> Any:
-        with quietly():
+        with quietly([]):
             return np.array(self.function(closing), dtype=np.float64)
 
     def _usable(self, closing: Any, e: Any) -> Any:
@@ -109,7 +109,7 @@ class RestitutionOf:
         if not closing > 0.0:
             return math.nan
         try:
-            with quietly():
+            with quietly([]):
                 given = self.function(closing)
             e = math.nan if isinstance(given, (str, bytes, bool)) else float(given)
         except Exception as error:

@@ -490,15 +490,18 @@ def taken_to_stick(impact: Impact) -> bool:
 
 def if_it_slid(impact: Impact) -> Impact | None:
     """The end of the family of impacts in which the contact slid at the ratio that it had in this
-    one, which was taken to stick; None where components of delta-V did not tell its speeds.
+    one, which was taken to stick; None where components of delta-V did not tell its speeds, or one
+    of these was known, with which it slid at another ratio.
     """
     origin, inputs = impact.reconstruction, impact.inputs
     if origin is None or not taken_to_stick(impact):
         return None
+    if any(name.startswith("speed") for name in origin.known):
+        return None
     given: dict[str, Any] = {
         name: attrgetter(KNOWN[name].path)(impact)
         for name in origin.known
-        if name.startswith(("speed", "delta_v"))
+        if name.startswith("delta_v")
     }
     given |= {f"course_{label}": getattr(inputs, label).course for label in "ab"}
     given |= {name: getattr(inputs, name) for name in ("restitution", "normal", "point")}

@@ -208,10 +208,10 @@ def _of_size(side: Any, speed: Any) -> Any:
 
 def _if_it_slid(scene: ComponentScene, impact: Impact, say: Sentences) -> str:
     """What follows for the speeds of a single case if its contact slid."""
+    if not scene.begins_a_family:
+        return NOT_THIS
     if scene.slides_both_ways():
         return f"it may have in either direction, since {EITHER_WAY}, and the speeds are open"
-    if len(scene.unknown) == 1 and not np.any(scene.leaves_slip):
-        return NOT_THIS  # beside a known speed no family of answers begins at this one
     signed = [_along(impact, label, scene) for label in "ab"]
     speeds, sides = scene.if_slid([speed / scene.speed_unit for speed in signed])
     ends = [float(speed * scene.speed_unit) for speed in speeds]
@@ -237,17 +237,19 @@ def _warn_of_slip(scene: ComponentScene, impact: Impact, cases: Cases) -> None:
             "(reference.INTER_VEHICLE_FRICTION)"
         )
         ratio = float(np.max(np.where(slides, abs(scene.ratio), 0.0)))
-        single = cases.shape is None
-        then = (
-            f"If it slid, {_if_it_slid(scene, impact, Sentences(impact.inputs.texts))}"
-            if single
-            else "If it slid, what was found is one end of the speeds that it may have had"
-        )
-        text = f"to stick, the contact needs an impulse ratio of {ratio:.2f}, and {why}. {then}"
+        one_end = end = NOT_THIS
+        if scene.begins_a_family:
+            one_end = "what was found is one end of the speeds that it may have had"
+            end = "the speeds are those of one end of a family"
+            # Not taken beside an energy.
+            end += "" if scene.energy is not None else "; `slid='bound'` says which"
+        if cases.shape is None:
+            one_end = _if_it_slid(scene, impact, Sentences(impact.inputs.texts))
+        needs = f"to stick, the contact needs an impulse ratio of {ratio:.2f}"
+        text = f"{needs}, and {why}. If it slid, {one_end}"
         sentence = (
             f"the contact was taken to stick at an impulse ratio of {MAY_SLIDE:g} or more, "
-            f"and {why}. If it slid, the speeds are those of one end of a family; "
-            "`slid='bound'` says which"
+            f"and {why}. If it slid, {end}"
         )
         warning = IllConditionedWarning(
             cases.how_many(slides) + text, code="may_slide", ratio=ratio

@@ -498,6 +498,13 @@ class ComponentScene(Scene):
             chosen.sides = first, second
         return chosen
 
+    @property
+    def begins_a_family(self) -> bool:
+        """Whether speeds of a contact that slid begin at those of one that stuck, and go on to one
+        side of them: beside a known speed it slid at another ratio.
+        """
+        return len(self.unknown) > 1
+
     def slides_both_ways(self) -> Any:
         """Whether a contact that slid at a ratio of either sign fits, and so one without any."""
         smooth = np.zeros(())

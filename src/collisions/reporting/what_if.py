@@ -553,11 +553,13 @@ def _written(
         for what, texts in _fixed(impact, sliders, system)
     ]
     text = _PAGE.read_text(encoding="utf-8")
+    one_sided = "".join(f"<p>{escape(typeset(one))}</p>" for one in impact._bounds(system))
+    heading = (
+        "As given, not moved" if impact.reconstruction is None else "Given or found, not moved"
+    )
     for name, part in {
         "evidence": _table("Evidence", ("observed", "as given", "now"), seen),
-        "fixed": _table(
-            "As given, not moved", ("input", names["a"], names["b"]), not_moved, _SIDES
-        ),
+        "fixed": one_sided + _table(heading, ("input", names["a"], names["b"]), not_moved, _SIDES),
         "title": escape(f"What if: {names['a']} and {names['b']}"),
         "model": escape(BY_NAME[impact.model].assumptions),
         "inputs": "\n".join(inputs),

@@ -746,15 +746,16 @@ class Sampled(Output):
 def unanswered_notes(outputs: Mapping[str, Sampled]) -> Iterator[Note]:
     """That some cases have none of these outputs, whose figures are of the others."""
     for name, output in outputs.items():
-        if output.failed:
-            count = output.values.size
+        failed, count = output.failed, output.values.size
+        if failed == count:
+            # It has no figures that could mislead.
+            yield Note(None, f"none of the {count} samples has {name!r}, and it has no figures")
+        elif failed:
             sentence = (
-                f"{output.failed} of {count} samples ({100.0 * output.failed / count:.3g} %) have "
-                f"no {name!r}, and its figures are of the others: they hold only where there is one"
-                if output.failed < count
-                else f"none of the {count} samples has {name!r}, and it has no figures"
+                f"{failed} of {count} samples ({100.0 * failed / count:.3g} %) have no {name!r}, "
+                "and its figures are of the others: they hold only where there is one"
             )
-            fields = {"failed": output.failed, "output": name}
+            fields = {"failed": failed, "output": name}
             yield Note(OutOfRangeWarning, sentence, code="failed_cases", fields=fields)
 
 
