@@ -553,3 +553,26 @@ def test_whatever_a_function_of_restitution_warns_of_is_of_the_answer():
         lambda: reconstruct.inline_closing_speed(1500, 1200, restitution, delta_v_b=4.05)
     )
     assert [one.message.code for one in caught] == ["suspect_units"]
+
+
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+def test_a_fit_states_what_holds_at_an_end_of_its_range_alone():
+    """The formula of restitution holds to 15 mph, which lies within the range and above the
+    estimate.
+    """
+
+    def model(speed):
+        e = reference.restitution(speed)
+        return {"delta_v": (1.0 + e) * 1500 / 2700 * speed}
+
+    unknowns = {"speed": Uniform(1.0, 12.0)}
+    near, far = (
+        reconstruct.fit(model, unknowns, {"delta_v": (value, 0.3)}) for value in (4.3, 2.2)
+    )
+    assert near["speed"].value < 15.0 * MPH < near["speed"].interval(0.95)[1]
+    (text,) = (one for one in near.statements if "at an end of a 95 percent range" in one)
+    assert "restitution against closing speed outside the range it holds for" in text
+    assert not near.model_notes[-1].warning
+    low, high = far["speed"].interval(0.95)
+    assert 2.0 * MPH < low < high < 15.0 * MPH
+    assert not any("at an end" in one for one in far.statements)

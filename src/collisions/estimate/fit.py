@@ -15,7 +15,7 @@ import numpy as np
 from ..messages.errors import AmbiguousSolutionError, InputError, NoSolutionError
 from ..messages.hints import hinted
 from ..messages.marked import as_code, type_of
-from ..messages.warning import Note, notes_of_samples, warn_of
+from ..messages.warning import NO_ANSWER, Note, notes_of_samples, warn_of
 from ..quantities.attributes import read_only
 from ..quantities.units import is_quantity
 from ..uncertainty.distribution import read_alike
@@ -218,6 +218,7 @@ def fit(
         for one in candidates:
             where = _left_open(one, ends)
             notes = _said_at(inputs, where, inputs.model, worked_back=True)
+            notes += _said_within(inputs, one, {note.code for note in notes})
             if dearer is not None:
                 # No figure rests on what the first model says at the answer of the finer one.
                 notes += tuple(
@@ -288,6 +289,33 @@ def _said_at(
     values = {name: np.array(points[:, j]) for j, name in enumerate(inputs.units)}
     model(values, len(points), check=False)
     return notes_of_samples(model.noted, worked_back=worked_back)
+
+
+def _said_within(inputs: _Inputs, found: _Candidate, known: set[str]) -> tuple[Note, ...]:
+    """What a model warns of at the ends of the 95 percent ranges, by the slopes, and not at the
+    answer, whose warnings have these codes; that it refuses there is said elsewhere.
+    """
+    covariance, point = found.determination.covariance, found.point
+    which = np.flatnonzero(np.isfinite(found.errors) & (found.errors > 0.0))
+    if not which.size:
+        return ()
+    away = _TWO_SIDED * np.nan_to_num(covariance[which] / found.errors[which, np.newaxis])
+    ends = np.clip(
+        np.concatenate([point + away, point - away]), found.problem.low, found.problem.high
+    )
+    model = inputs.model
+    model.noted.clear()
+    model({name: np.array(ends[:, j]) for j, name in enumerate(inputs.units)}, len(ends), False)
+    new = {
+        one.code: one.sentence
+        for _, noted in model.noted
+        for one in noted
+        if one.code not in known | NO_ANSWER and 0.0 < one.least <= 1.0
+    }
+    return tuple(
+        Note(None, f"at an end of a 95 percent range, not at the estimate: {sentence}", code=code)
+        for code, sentence in new.items()
+    )
 
 
 class _Inputs(NamedTuple):
