@@ -576,3 +576,63 @@ def test_a_fit_states_what_holds_at_an_end_of_its_range_alone():
     low, high = far["speed"].interval(0.95)
     assert 2.0 * MPH < low < high < 15.0 * MPH
     assert not any("at an end" in one for one in far.statements)
+
+
+@pytest.mark.filterwarnings("ignore::collisions.IllConditionedWarning")
+@pytest.mark.parametrize(
+    ("read", "suspected"),
+    [((41.0, 3.0), "41"), (("41 deg", "3 deg"), ""), ((0.7, 0.05), ""), (Interval(38, 44), "44")],
+)
+@pytest.mark.parametrize("study", ["fit", "posterior"])
+def test_a_bare_reading_of_an_angle_of_more_than_a_turn_is_suspected(study, read, suspected):
+    """Degrees without their unit would be taken round the circle as radians."""
+
+    def model(speed):
+        impact = col.eccentric(
+            A.replace(vx=speed), B, 0.1, normal=0.0, point=(0.0, 0.0), friction=0.5,
+            on_failure="nan",
+        )  # fmt: skip
+        return {"course": impact.b.after.q.course}
+
+    if study == "fit" and isinstance(read, Interval):
+        pytest.skip("fit takes no intervals as readings")
+    options = {"samples": 512, "seed": 1} if study == "posterior" else {}
+
+    def solved():
+        try:
+            return getattr(reconstruct, study)(
+                model, {"speed": Uniform(5.0, 25.0)}, {"course": read}, **options
+            )
+        except col.NoSolutionError:
+            return None
+
+    found, caught = quiet(solved)
+    said = [str(one.message) for one in caught if one.message.code == "suspect_units"]
+    if suspected and found is not None:
+        (text,) = said
+        assert f"write '{suspected} deg'" in text
+        assert any("read as radians" in one for one in found.statements)
+    else:
+        assert not said
+
+
+def test_a_bare_place_of_a_recorder_in_inches_is_suspected():
+    """15 m ahead of the centre of mass is in no car; with a unit it is taken."""
+    ahead = col.eccentric(A, B, 0.1, normal=0.0, point=(0.0, 0.0), friction=0.5)
+    known = {f"delta_v_{way}_a": getattr(ahead.a, f"delta_v_{way}") for way in ("forward", "left")}
+    known |= {"course_a": 0.0, "course_b": np.pi / 2, "restitution": 0.1, "speed_b": 9.0}
+    known |= {"normal": 0.0, "point": (0.0, 0.0), "friction": math.inf, "duration": 0.1}
+
+    def codes(place):
+        def solved():
+            try:
+                reconstruct.speeds(A, B, recorder_a=place, **known)
+            except col.CollisionsError:
+                return
+
+        _, caught = quiet(solved)
+        return [one.message.code for one in caught]
+
+    assert codes((15.0, 0.0)).count("suspect_units") == 1
+    assert "suspect_units" not in codes(("15 in", 0.0))
+    assert "suspect_units" not in codes((1.5, -0.3))

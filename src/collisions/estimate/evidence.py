@@ -5,11 +5,19 @@ model's outputs.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple, TypeVar
 
-from ..messages.errors import CollisionsError, InputError, NoSolutionError, UnitsError, placed
+from ..messages.errors import (
+    CollisionsError,
+    InputError,
+    NoSolutionError,
+    SuspectUnitsWarning,
+    UnitsError,
+    placed,
+)
 from ..messages.marked import as_code, type_of
+from ..messages.warning import Note
 from ..quantities.reading import ArgumentReader
 from ..uncertainty.distribution import (
     GivenUnit,
@@ -56,6 +64,27 @@ class Observation(NamedTuple):
             if problem := missing_unit(f"observed[{self.name!r}]", observed, returned):
                 raise problem
         return "rad" in (observed, returned)
+
+
+def bare_angle_notes(
+    rows: Sequence[Observation], units: Mapping[str, str | None]
+) -> Iterator[Note]:
+    """Readings of angles that were given as numbers without a unit and are more than a turn."""
+    for row in rows:
+        value = row.reading.value
+        if row.is_prior or units[row.name] != "rad" or value.unit:
+            continue
+        ends = getattr(value, "low", None), getattr(value, "high", None)
+        known = (value.given_mean,) if isinstance(value, Normal) else ends
+        worst = max((abs(one) for one in known if one is not None and one**2 < math.inf), default=0)
+        if worst > math.tau:
+            yield Note(
+                SuspectUnitsWarning,
+                f"observed {row.name} is {worst:.6g} without a unit, and is read as radians, more "
+                f"than a turn; if degrees were meant, write '{worst:.6g} deg'",
+                code="suspect_units",
+                fields={"argument": "observed", "value": worst},
+            )
 
 
 def observed_columns(names: Sequence[str], answered: Mapping[str, Any]) -> list[Any]:

@@ -26,6 +26,7 @@ from ..uncertainty.normal import score_of_coverage
 from ..uncertainty.turns import folded
 from .evidence import (
     Observation,
+    bare_angle_notes,
     listed,
     observed_columns,
     read_evidence,
@@ -219,6 +220,7 @@ def fit(
             where = _left_open(one, ends)
             notes = _said_at(inputs, where, inputs.model, worked_back=True)
             notes += _said_within(inputs, one, {note.code for note in notes})
+            notes += tuple(bare_angle_notes(inputs.rows, inputs.model.units))
             if dearer is not None:
                 # No figure rests on what the first model says at the answer of the finer one.
                 notes += tuple(

@@ -27,7 +27,14 @@ from ..uncertainty.result import unanswered_notes, wrap_notes, wraps_of
 from ..uncertainty.sampling import Correlation, Joint
 from ..uncertainty.turns import folded
 from .at_level import at_level
-from .evidence import Observation, observed_columns, read_evidence, read_reading, refused_everywhere
+from .evidence import (
+    Observation,
+    bare_angle_notes,
+    observed_columns,
+    read_evidence,
+    read_reading,
+    refused_everywhere,
+)
 from .fit_result import residual_of
 from .islands import Island, Islands, UnreachableError
 from .least_squares import chi_squared_tail
@@ -463,6 +470,7 @@ class _Problem:
             )
             for name, column in answers.items()
         }
+        notes += tuple(bare_angle_notes(self.rows, self.model.units))
         notes += *unanswered_notes(predicted), *wrap_notes(wraps_of(predicted | unknowns))
         refused = float(np.mean([one.refused for one in islands]))
         if refused:

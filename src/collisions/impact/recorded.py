@@ -21,12 +21,13 @@ from ..kernels.elementwise import FINITE
 from ..kernels.status import Passed, Status
 from ..messages.errors import InputError, ShapeError
 from ..quantities.attributes import read_only
-from ..quantities.reading import ArgumentReader
+from ..quantities.reading import ArgumentReader, warn_if_large
 from ..quantities.units import shown
 from .inputs import Inputs
 
 Axes: TypeAlias = Literal["turning", "fixed"]
 FARTHEST = 20.0  # m; no recorder is farther from the centre of mass
+_LIKELY = 5.0  # m; beyond, as of a long truck, a number without a unit may be of another one
 # Cases of a block, whose steps are all kept, and how many are faster one by one.
 _BLOCK, _FEW = 512, 24
 
@@ -358,7 +359,10 @@ def read_place(
 
 def _read_distance(reader: ArgumentReader, given: Any, name: str) -> Any:
     found = reader.number(given, "m", name, FINITE)
-    if reader.problems or np.all(np.abs(found) <= FARTHEST):
+    if reader.problems:
+        return found
+    if np.all(np.abs(found) <= FARTHEST):
+        warn_if_large(given, found, _LIKELY, name, "metres", "in", "cm")
         return found
     text = (
         f"{name} must be within {FARTHEST:g} m of the centre of mass, got {shown(given)} (were "
