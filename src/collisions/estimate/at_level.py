@@ -11,8 +11,10 @@ from ..kernels.elementwise import POSITIVE_FINITE
 from ..messages.errors import InputError, placed, reworded
 from ..messages.marked import type_of
 from ..messages.warning import Note, quietly
+from ..quantities.formatting import KIND_OF
 from ..quantities.reading import ArgumentReader
 from ..quantities.settings import in_si
+from ..quantities.tables import Sentences, given_texts
 from ..quantities.units import shown
 from ..uncertainty.distribution import show
 from ..uncertainty.distributions import Distribution
@@ -63,8 +65,13 @@ def at_level(
         raise placed(reworded(error, text), "", argument=argument) from None
     level = found.level
     cost = next(one for one in found.costs if one.level is level)
+    say = Sentences(given_texts(model))
+
+    def told(value: float, unit: str) -> str:
+        return say(value, KIND_OF[unit], 4) if unit in KIND_OF else show(value, unit)
+
     differences = ", ".join(
-        f"{path} by {show(cost.differences[path], unit)} of the {show(within, unit)} asked for"
+        f"{path} by {told(cost.differences[path], unit)} of the {told(within, unit)} asked for"
         for (path, unit), within in zip(found.units.items(), found.tolerances.values(), strict=True)
     )
     said = (
