@@ -59,7 +59,7 @@ DURATION_ERROR, GROUND_ERROR, LOCK_ERROR = (
 )  # share; of friction; of the locks of a car's braked wheels together
 FASTEST = 40.0  # m/s; before the evidence any speed up to this is as likely
 OF_TYRES = ("wheelbase", "track", "cornering", "height")
-ENDED = 10.0  # s after first contact, when none lasts any more
+ENDED = "10 s"  # after first contact, when none lasts any more
 PARTS = 20  # of a contact that is taken as an instant, in which its recorders turn
 STEPS = 20  # of a contact in time: within 0.1 % of those of 100
 LOST = 0.02  # of the samples: above, the range is of the others, and the route counts as refused

@@ -636,3 +636,41 @@ def test_a_bare_place_of_a_recorder_in_inches_is_suspected():
     assert codes((15.0, 0.0)).count("suspect_units") == 1
     assert "suspect_units" not in codes(("15 in", 0.0))
     assert "suspect_units" not in codes((1.5, -0.3))
+
+
+def test_bare_lengths_and_times_of_a_contact_are_suspected():
+    """Inches of wheels as metres, milliseconds of a curve as seconds."""
+    given = CONTACT | {"friction": 0.5, "duration": 0.1, "geometry": "fixed", "drag": 0.7}
+
+    def codes(solve):
+        found, caught = quiet(solve)
+        return found, [one.message.code for one in caught]
+
+    _, said = codes(lambda: col.time_resolved(A, B, 0.1, **given, wheelbase=106, track=60))
+    assert said == ["suspect_units", "suspect_units"]
+    impact, said = codes(
+        lambda: col.time_resolved(A, B, 0.1, **given, wheelbase="106 in", track="60 in")
+    )
+    assert not said
+    assert codes(lambda: impact.b.recorded(40))[1] == ["suspect_units"]
+    assert codes(lambda: impact.b.recorded([0.01, 40]))[1] == ["suspect_units"]
+    assert codes(lambda: impact.b.recorded("40 ms"))[1] == []
+    assert codes(lambda: impact.b.recorded("40 s"))[1] == []
+    with pytest.raises(col.InputError, match=r"got '400 m'$"):
+        impact.b.recorded("40 ms", forward="400 m")
+
+
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+def test_a_fit_looks_along_what_is_known_together_too():
+    """Each speed is known to 5 mph, and their difference, which the formula takes, much better."""
+
+    def model(va, vb):
+        impact = col.linear_central(
+            A.replace(vx=va), A.replace(x=4.0, vx=vb), reference.restitution(va - vb)
+        )
+        return {"dv": impact.b.delta_v}
+
+    unknowns = {"va": Normal("40 mph", "5 mph"), "vb": Normal("26.5 mph", "5 mph")}
+    found = reconstruct.fit(model, unknowns, {"dv": (4.0, 0.4)})
+    assert 0.0 < found["va"].value - found["vb"].value < 15.0 * MPH
+    assert any("at an end of a 95 percent range" in one for one in found.statements)

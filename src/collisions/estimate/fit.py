@@ -297,13 +297,20 @@ def _said_within(inputs: _Inputs, found: _Candidate, known: set[str]) -> tuple[N
     """What a model warns of at the ends of the 95 percent ranges, by the slopes, and not at the
     answer, whose warnings have these codes; that it refuses there is said elsewhere.
     """
-    covariance, point = found.determination.covariance, found.point
     which = np.flatnonzero(np.isfinite(found.errors) & (found.errors > 0.0))
     if not which.size:
         return ()
-    away = _TWO_SIDED * np.nan_to_num(covariance[which] / found.errors[which, np.newaxis])
+    errors = found.errors[which]
+    alike = found.determination.covariance[np.ix_(which, which)] / np.outer(errors, errors)
+    sizes, axes = np.linalg.eigh(alike)
+    # To the ends of each range, and along what together is known best and worst.
+    ways = np.concatenate([alike, (axes * np.sqrt(np.maximum(sizes, 0.0))).T]) * errors
+    away = np.zeros((len(ways), len(found.point)))
+    away[:, which] = _TWO_SIDED * ways
     ends = np.clip(
-        np.concatenate([point + away, point - away]), found.problem.low, found.problem.high
+        np.concatenate([found.point + away, found.point - away]),
+        found.problem.low,
+        found.problem.high,
     )
     model = inputs.model
     model.noted.clear()

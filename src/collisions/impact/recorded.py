@@ -22,7 +22,8 @@ from ..kernels.status import Passed, Status
 from ..messages.errors import InputError, ShapeError
 from ..quantities.attributes import read_only
 from ..quantities.reading import ArgumentReader, warn_if_large
-from ..quantities.units import shown
+from ..quantities.units import has_unit, shown
+from ..vehicle.drag import LONGEST_CONTACT
 from .inputs import Inputs
 
 Axes: TypeAlias = Literal["turning", "fixed"]
@@ -349,6 +350,14 @@ def read_axes(reader: ArgumentReader, axes: Any) -> Any:
     return axes
 
 
+def read_moment(reader: ArgumentReader, time: Any, name: str = "time") -> Any:
+    """A time after first contact, with a warning if a bare number is longer than any contact."""
+    found = reader.number(time, "s", name, FINITE)
+    if not reader.problems:
+        warn_if_large(time, found, LONGEST_CONTACT, name, "seconds", "ms")
+    return found
+
+
 def read_place(
     reader: ArgumentReader, place: tuple[Any, Any], names: tuple[str, str] = ("forward", "left")
 ) -> tuple[Any, Any]:
@@ -364,8 +373,6 @@ def _read_distance(reader: ArgumentReader, given: Any, name: str) -> Any:
     if np.all(np.abs(found) <= FARTHEST):
         warn_if_large(given, found, _LIKELY, name, "metres", "in", "cm")
         return found
-    text = (
-        f"{name} must be within {FARTHEST:g} m of the centre of mass, got {shown(given)} (were "
-        "millimetres meant?)"
-    )
+    doubt = "" if has_unit(given) else " (were millimetres meant?)"
+    text = f"{name} must be within {FARTHEST:g} m of the centre of mass, got {shown(given)}{doubt}"
     return reader.refuse(InputError(text, code="out_of_range", argument=name))

@@ -18,11 +18,11 @@ from ..kernels.status import Answer, Passed, Status, WithTyres
 from ..messages.errors import InputError, MissingInputError, NoImpactError, ShapeError
 from ..quantities.attributes import read_only
 from ..quantities.directions import from_radians
-from ..quantities.reading import ArgumentReader, is_whole
+from ..quantities.reading import ArgumentReader, is_whole, warn_if_large
 from ..quantities.tables import said
 from ..quantities.units import shown
 from ..vehicle.drag import GRAVITY, read_drag, read_duration
-from ..vehicle.tyres import Tyres, kernel_numbers, not_tyres
+from ..vehicle.tyres import LARGEST, Tyres, kernel_numbers, not_tyres
 from ..vehicle.vehicle import Vehicle, error_of_missing
 from .inputs import (
     CRUSH_UNITS,
@@ -211,6 +211,8 @@ def read_times(reader: ArgumentReader, extra: dict[str, Any]) -> dict[str, Any]:
             found[name] = reader.number(
                 value, {"stiffness": "N/m"}.get(name, "m"), name, domains[0]
             )
+            if name in LARGEST:
+                warn_if_large(value, found[name], LARGEST[name], name, "metres", "cm", "in")
     return found
 
 

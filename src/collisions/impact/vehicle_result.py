@@ -33,7 +33,7 @@ from ..quantities.tables import Cells, Part, Summarized, Summary, all_numbers
 from ..quantities.units import Input, Pair, Texts, Value
 from ..vehicle.vehicle import Vehicle, error_of_missing, moved, turn_at, with_name, without_turning
 from .inputs import Inputs
-from .recorded import Axes, read_axes, read_place, recorded
+from .recorded import Axes, read_axes, read_moment, read_place, recorded
 
 if TYPE_CHECKING:
     from .choice import ModelChoice
@@ -415,9 +415,9 @@ class VehicleResult(Frozen, Summarized):
             )
         reader = ArgumentReader()
         if isinstance(time, (list, tuple)):
-            time = [reader.number(one, "s", "time") for one in time]
+            time = [read_moment(reader, one) for one in time]
         else:
-            time = reader.number(time, "s", "time")
+            time = read_moment(reader, time)
         place = read_place(reader, (forward, left))
         axes = read_axes(reader, axes)
         reader.close()

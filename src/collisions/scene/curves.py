@@ -7,8 +7,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ..impact.recorded import read_place
-from ..kernels.elementwise import FINITE
+from ..impact.recorded import read_moment, read_place
 from ..messages.errors import InputError, ShapeError
 from ..quantities.reading import ArgumentReader
 from .contact import IN_TIME
@@ -57,7 +56,7 @@ def sample_of(name: str, path: str, argument: str) -> Sample | None:
             argument=argument,
         )
     reader = ArgumentReader()
-    time = reader.number(_number(given[0]), "s", f"{path}: time", FINITE)
+    time = read_moment(reader, _number(given[0]), f"{path}: time")
     ahead, aside = (_number(one) for one in (given[1:] or ["0", "0"]))
     forward, left = read_place(reader, (ahead, aside), (f"{path}: forward", f"{path}: left"))
     reader.close()

@@ -35,7 +35,7 @@ from .drag import one_value, read_friction
 WHEELS = ("front left", "front right", "rear left", "rear right")
 LOCKS = tuple(f"lock[{i}]" for i in range(len(WHEELS)))
 # No road vehicle is larger [m]: beyond, a bare number is in another unit.
-_LIKELY = {"wheelbase": 12.0, "track": 3.5, "height": 3.5}
+LARGEST = {"wheelbase": 12.0, "track": 3.5, "height": 3.5}
 
 
 @dataclass(frozen=True, slots=True, init=False, eq=False, repr=False)
@@ -148,7 +148,7 @@ class Tyres(Shown):
             )
         for name, value in (("wheelbase", wheelbase), ("track", track), ("height", height)):
             if value is not None:
-                warn_if_large(value, read[name], _LIKELY[name], name, "metres", "cm", "in")
+                warn_if_large(value, read[name], LARGEST[name], name, "metres", "cm", "in")
         reader.close()
         refuse_lifting(read, read["friction"], texts_of(reader.texts))
         _set(self, read, Texts(reader.texts))
