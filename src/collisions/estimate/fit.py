@@ -301,7 +301,10 @@ def _said_within(inputs: _Inputs, found: _Candidate, known: set[str]) -> tuple[N
     if not which.size:
         return ()
     errors = found.errors[which]
-    alike = found.determination.covariance[np.ix_(which, which)] / np.outer(errors, errors)
+    # One after the other, as their product may overflow.
+    alike = found.determination.covariance[np.ix_(which, which)] / errors / errors[:, np.newaxis]
+    if not np.all(np.isfinite(alike)):
+        return ()
     sizes, axes = np.linalg.eigh(alike)
     # To the ends of each range, and along what together is known best and worst.
     ways = np.concatenate([alike, (axes * np.sqrt(np.maximum(sizes, 0.0))).T]) * errors
@@ -312,6 +315,7 @@ def _said_within(inputs: _Inputs, found: _Candidate, known: set[str]) -> tuple[N
         found.problem.low,
         found.problem.high,
     )
+    ends = ends[np.all(np.isfinite(ends), axis=1)]
     model = inputs.model
     model.noted.clear()
     model({name: np.array(ends[:, j]) for j, name in enumerate(inputs.units)}, len(ends), False)

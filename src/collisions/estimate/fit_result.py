@@ -260,8 +260,8 @@ class Fit(SpeedsFound, Shown):
     there. ``model_notes`` are the warnings of this library while the model worked at the answer,
     which ``statements`` have too; with an unknown that nothing determines, at each of its values
     with which a search ended there. What it warns of at an end of a range alone is stated and not
-    raised. ``calls`` says how many cases were asked of each model:
-    "model", and "finer" if one was given, whose fit this then is.
+    raised. ``calls`` says how many cases were asked of each model: "model", and "finer" if one was
+    given, whose fit this then is.
 
     ``profiles`` has, for unknowns whose range the slopes do not give, rows of a rise of the misfit
     in sigma with the least and the greatest value that has no more, the others fitted again,
