@@ -316,6 +316,25 @@ def test_bounds_alone_state_the_warnings_too():
     assert len([one for one in caught if one.message.code == "energy_gain"]) == 1
 
 
+def test_a_warning_of_an_interval_alone_is_counted_beside_a_distribution():
+    """In the runs at its ends too, where it is the same number in all cases."""
+    asked = []
+
+    def model(speed, mass):
+        e = reference.restitution(speed, outside="warn")
+        if np.size(mass) > 4:  # fewer are asked again as a check
+            inside = (0.89408 <= speed) & (speed <= 6.7056)
+            asked.append(np.count_nonzero(np.broadcast_to(~inside, np.shape(mass))))
+        return {"delta_v": e * mass / 1000.0}
+
+    given = {"speed": Interval(0.3, 7.0), "mass": Normal(1500.0, 20.0)}
+    found, caught = quiet(lambda: propagate(model, given, samples=256, seed=1))
+    (note,) = [one for one in found.notes if one.code == "outside_reference"]
+    assert note.statement.startswith(f"{note.fields['cases']} of {found.samples} cases (")
+    assert 0 < note.fields["cases"] == sum(asked)
+    assert [one.message.code for one in caught].count("outside_reference") == 1
+
+
 def test_a_fit_states_what_the_model_warns_of_at_the_answer():
     def model(speed):
         impact = col.linear_central(

@@ -63,6 +63,9 @@ class Model:
             )
         self.function = function
         self.fixed = dict(fixed)
+        # What is the same in all cases of a run and another in the next: it reaches the function as
+        # an array, so that a warning of it is of all these cases.
+        self.place: Mapping[str, float] = {}
         self.units: dict[str, str | None] = {}
         self.noted: Calls = []
         self.cases = 0  # asked so far, but for those asked again as a check
@@ -73,9 +76,9 @@ class Model:
         self._checked = getattr(function, "answers_by_case", False)
 
     def at(self, place: Mapping[str, float]) -> Model:
-        """The model with more inputs fixed."""
-        found = Model(self.function, {**self.fixed, **place}, self.one_sided)
-        found._checked, found.noted = self._checked, self.noted
+        """The model with intervals at one place between their bounds."""
+        found = Model(self.function, self.fixed, self.one_sided)
+        found._checked, found.noted, found.place = self._checked, self.noted, place
         return found
 
     def __call__(self, values: Mapping[str, Any], count: int, check: bool = True) -> Answers:
@@ -94,6 +97,7 @@ class Model:
         return found
 
     def _answers(self, values: Mapping[str, Any], count: int, noted: Calls) -> Answers:
+        values = {**values, **{name: np.full(count, one) for name, one in self.place.items()}}
         for value in values.values():
             value.setflags(write=False)
         said: list[Said] = []
