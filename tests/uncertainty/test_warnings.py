@@ -323,7 +323,7 @@ def test_a_warning_of_an_interval_alone_is_counted_beside_a_distribution():
     def model(speed, mass):
         e = reference.restitution(speed, outside="warn")
         if np.size(mass) > 4:  # fewer are asked again as a check
-            inside = (0.89408 <= speed) & (speed <= 6.7056)
+            inside = (speed >= 0.89408) & (speed <= 6.7056)
             asked.append(np.count_nonzero(np.broadcast_to(~inside, np.shape(mass))))
         return {"delta_v": e * mass / 1000.0}
 
