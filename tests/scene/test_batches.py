@@ -6,8 +6,10 @@ from __future__ import annotations
 
 import math
 import re
+import warnings
 from collections import Counter
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -16,6 +18,7 @@ import pytest
 import collisions as col
 from collisions.scene import Contact, Mover, Scene
 from collisions.travel import Tyres, following
+from collisions.uncertainty import Normal, propagate
 
 COUNT = 24
 RULE = {"restitution": 0.3, "friction": 0.5, "at": "touch"}
@@ -232,3 +235,47 @@ def test_what_limits_a_case_is_that_of_the_case_alone(rules: slice) -> None:
             assert found.undescribed[i] == ("touch_without_contact" in codes)
             assert found.passed_over[i] == ("touch_passed_over" in codes)
             assert found.driven[i] == any(code.startswith("driven") for code in codes)
+
+
+@pytest.mark.slow
+def test_what_an_impact_warns_of_is_counted_by_the_cases_of_a_study() -> None:
+    """Cases of a scene come to their second and third impact in parts of their own."""
+    asked: list[dict[str, Any]] = []
+
+    def in_line(speed: Any, first: Any, second: Any) -> Scene:
+        movers = {
+            name: Mover(
+                col.Vehicle(mass=1500, yaw_inertia=2500, vx=vx, x=x, y=y, heading=0.0),
+                outline=(4.5, 1.8),
+                drag=0.5,
+            )
+            for name, vx, x, y in (("A", speed, -6.0, 0.3), ("B", 0, 0, 0), ("C", 0, 7, -0.4))
+        }
+        rules = (("A", "B", first), ("B", "C", second))
+        return Scene(
+            movers=movers,
+            contacts=[
+                Contact(a, b, at="touch", restitution=0.2, impulse_ratio=ratio)
+                for a, b, ratio in rules
+            ],
+        )
+
+    def model(**values: Any) -> dict[str, Any]:
+        if np.size(values["speed"]) > 4:  # fewer are asked again as a check
+            asked.append(values)
+        return {"rest": in_line(**values).run().rest["C"].x}
+
+    spread = {"speed": Normal(15.0, 2.0), "first": Normal(0.0, 0.5), "second": Normal(0.0, 0.5)}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", col.CollisionsWarning)
+        found = propagate(model, spread, samples=64, seed=1)
+    (values,) = asked
+    gains = 0
+    for case in zip(*values.values(), strict=True):
+        with warnings.catch_warnings(record=True) as caught, suppress(col.CollisionsError):
+            warnings.simplefilter("always")
+            in_line(**dict(zip(values, map(float, case), strict=True))).run()
+        gains += any(one.category is col.EnergyGainWarning for one in caught)
+    (note,) = [one for one in found.notes if one.code == "energy_gain"]
+    assert note.fields["cases"] == gains > 32
+    assert note.statement.startswith(f"{gains} of 64 cases (")

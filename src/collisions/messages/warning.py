@@ -170,6 +170,8 @@ def of_some(where: Any) -> Iterator[None]:
         whole = np.array(where)
         if np.shape(one.where) == (np.count_nonzero(where),):
             whole[where] = one.where
+        elif one.where is not None:
+            whole &= np.any(one.where)
         said.append(one._replace(where=whole))
 
 
