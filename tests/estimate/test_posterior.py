@@ -24,6 +24,7 @@ from collisions.estimate import readings
 from collisions.estimate.evidence import read_evidence, read_reading
 from collisions.estimate.islands import Island
 from collisions.estimate.posterior import _Problem
+from collisions.estimate.posterior_result import notes_of
 from collisions.estimate.readings import CensoredReading, ValueReading
 from collisions.reconstruct import fit, posterior
 from collisions.uncertainty import (
@@ -192,8 +193,13 @@ def test_censored_readings_of_a_normal_prior(case):
     if not error:
         assert found["x"].values.min() >= (-math.inf if low is None else low)
         assert found["x"].values.max() <= (math.inf if high is None else high)
-        assert math.isnan(found.p_value)
-        assert found.consistent is None
+        missed = max(0.0, a, -b)
+        chance = math.erfc(missed / math.sqrt(2.0))
+        assert found.p_value == pytest.approx(chance, rel=0.02)
+        assert found.consistent is (chance > 0.01)
+        assert ("contradictory" in codes) is (chance < 0.01)
+        furthest = f"the furthest off is the prior of x, by {found['x'].mean:.3g} sigma"
+        assert (furthest in next(notes_of(found)).rest) is (chance < 0.01)
 
 
 def test_a_reading_of_bounds_is_missed_by_what_is_observed_less_what_is_computed():

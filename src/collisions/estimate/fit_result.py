@@ -8,6 +8,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, field, fields
 from itertools import combinations
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -546,9 +547,14 @@ def notes_of(found: Fit) -> Iterator[Note]:
     yield from found.model_notes
 
 
-def agreement(p_value: float, residuals: Mapping[str, Residual], by: str = "") -> Note:
+def agreement(
+    p_value: float,
+    residuals: Mapping[str, Residual],
+    by: str = "",
+    apart: Mapping[str, float] = MappingProxyType({}),
+) -> Note:
     """Whether the evidence agrees with itself, by the chance of its misfit in two digits, never
-    rounded across a limit.
+    rounded across a limit; ``apart`` is what else may be off, in sigma.
     """
     text = f"{p_value:.2g}"
     text = next(
@@ -568,12 +574,16 @@ def agreement(p_value: float, residuals: Mapping[str, Residual], by: str = "") -
             "the evidence agrees only weakly with itself, the model and the stated errors: "
             f"{chance}",
         )
-    name, worst = max(residuals.items(), key=lambda item: abs(item[1].over_sigma))
+    off = {
+        f"the prior of {name}" if one.is_prior else name: one.over_sigma
+        for name, one in residuals.items()
+    } | {**apart}
+    name, worst = max(off.items(), key=lambda item: abs(item[1]))
     return Note(
         CollisionsWarning,
         f"the evidence contradicts itself, the model or the stated errors: {chance}",
         f", and {CONTRADICTION} would pass{by}; the furthest off is {name}, by "
-        f"{abs(worst.over_sigma):.3g} sigma{''.join(map(_turned, residuals.values()))}",
+        f"{abs(worst):.3g} sigma{''.join(map(_turned, residuals.values()))}",
         "contradictory",
     )
 

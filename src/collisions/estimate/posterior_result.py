@@ -120,8 +120,9 @@ class Posterior(SpeedsFound, Summarized):
         another account of the same observations.
     p_value : float
         Chance of a misfit as large as the least or larger, counting also how far each unknown is
-        from the middle of its prior; NaN if every observation has sharp bounds. The least is that
-        of the best sample without what the best of so many samples is above it.
+        from the middle of its prior, by as many normal errors as there are observations; sharp
+        bounds count where no observation has an error. The least is that of the best sample without
+        what the best of so many samples is above it.
     refused : float
         Share of the prior for which the model has no answer, which rules it out. With a finer model
         it is that of the other one, and points there were tried too.
@@ -362,11 +363,9 @@ class Posterior(SpeedsFound, Summarized):
         )
 
     @property
-    def consistent(self) -> bool | None:
-        """Whether a misfit this large has a probability of 0.01 or more; None where no observation
-        has an error.
-        """
-        return None if math.isnan(self.p_value) else self.p_value >= CONTRADICTION
+    def consistent(self) -> bool:
+        """Whether a misfit this large has a probability of 0.01 or more."""
+        return self.p_value >= CONTRADICTION
 
     @property
     def statements(self) -> tuple[str, ...]:
@@ -459,8 +458,11 @@ class Posterior(SpeedsFound, Summarized):
 
 def notes_of(found: Posterior) -> Iterator[Note]:
     """The notes on a posterior in the order of importance: first whether the evidence agrees."""
-    if found.consistent is not None:
-        yield agreement(found.p_value, found.residuals)
+    apart = {
+        f"the prior of {name}": (one.mean - found.priors[name].mean) / found.priors[name].sd
+        for name, one in found.unknowns.items()
+    }
+    yield agreement(found.p_value, found.residuals, apart=apart)
     for name in found.prior_only:
         sentence = (
             f"the evidence says next to nothing of {name}: what is given of it rests on its "
