@@ -172,10 +172,11 @@ class Model:
         read = reader.number(value, unit or "", name)
         reader.close()
         if np.shape(read) != (count,) and not np.size(read) == count == 1:
+            constant = "; leave out what is the same in every case" if not np.ndim(read) else ""
             raise ShapeError(
                 f"output {name!r} of the model has shape {np.shape(read)} for {count} cases; it "
                 "must answer every case by itself, so an array of shape "
-                f"({count},){pair_hints(self.fixed)}",
+                f"({count},){constant}{pair_hints(self.fixed)}",
                 code="bad_shape",
                 argument=name,
             )
