@@ -415,6 +415,60 @@ def test_components_of_a_contact_that_stuck_may_have_several_answers_with_tyres(
         assert both.a.before.speed == pytest.approx(one.a.before.speed, rel=1e-9)
 
 
+BOUNDED = {
+    "at an angle": (
+        {
+            "mass": 2494,
+            "yaw_inertia": 2641,
+            "x": -2.17,
+            "y": -0.56,
+            "heading": -0.02,
+            "speed": 3.99,
+        },
+        {"mass": 996, "yaw_inertia": 3479, "x": 1.65, "y": 0.42, "heading": -1.2, "speed": 0.535},
+        {"normal": 0.041, "point": (0.0, 0.089), "friction": 0.665, "restitution": 0.203},
+        (0.099, 0.078, 0.944),
+        3,
+    ),
+    "nearly in line": (
+        {"mass": 2101, "yaw_inertia": 3031, "x": -2.17, "y": 0.58, "heading": 0.149, "speed": 6.66},
+        {"mass": 1177, "yaw_inertia": 1945, "x": 1.79, "y": -0.29, "heading": 0.204, "speed": 2.36},
+        {"normal": 0.053, "point": (0.0, 0.228), "friction": 0.768, "restitution": 0.263},
+        (0.08, 0.53, 0.542),
+        2,
+    ),
+}
+
+
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+@pytest.mark.parametrize("case", BOUNDED)
+def test_a_bound_leaves_out_no_answer_of_a_contact_that_stuck(case):
+    """Where a contact stuck nothing is open, so that a bound asks for the same answers."""
+    *bodies, contact, (duration, lock_a, lock_b), count = BOUNDED[case]
+    wheels = {
+        "duration": duration,
+        "tyres_a": Tyres(0.7, lock_a, 2.7, 1.5),
+        "tyres_b": Tyres(0.6, lock_b, 2.6, 1.5),
+    }
+    a, b = (
+        col.Vehicle.from_speed(speed=body.pop("speed"), course=body["heading"], **body)
+        for body in map(dict, bodies)
+    )
+    impact = col.eccentric(a, b, **contact, **wheels)
+    assert impact.regime == "sticking"
+    known = {name: read(impact, name) for name in COMPONENTS[:2]}
+    courses = {f"course_{v}": getattr(impact, v).before.course for v in "ab"}
+    given = {**known, **courses, **contact, **wheels}
+    found = reconstruct.speeds(a, b, **given)
+    bounded = reconstruct.speeds(a, b, **given, slid="bound")
+    assert len(found) == len(bounded) == count
+    assert found[0].a.before.speed == pytest.approx(a.speed, rel=1e-6)
+    for one, other in zip(found, bounded, strict=True):
+        assert other.a.before.speed == one.a.before.speed
+        assert other.b.before.speed == one.b.before.speed
+        assert other.reconstruction.one_sided == {"speed_a": 0, "speed_b": 0}
+
+
 @pytest.mark.slow
 def test_no_speeds_of_a_contact_that_stuck_are_missed():
     """From both components of one vehicle."""

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import collisions as col
+from collisions import reference
 from collisions.uncertainty import (
     Halved,
     Interval,
@@ -293,6 +294,23 @@ def test_what_is_warned_of_all_widths_is_said_once():
     halved = found.if_halved()
     (said,) = halved.statements
     assert said == f"as stated, {found.statements[0]}"
+
+
+def test_what_more_cases_of_a_row_are_warned_of_is_said_of_it_again():
+    """A formula outside its range in half of the cases as stated, and in all of a row."""
+
+    def model(speed, factor):
+        outside = np.where(abs(speed - 3.0) < 1.0, 8.0, 3.0)
+        return {"e": reference.restitution(outside, outside="warn") * factor + 0.01 * speed}
+
+    inputs = {"speed": Uniform(1.0, 5.0), "factor": Normal(1.0, 0.05)}
+    with pytest.warns(col.OutOfRangeWarning):
+        found = propagate(model, inputs, samples=1024, seed=1)
+    said = found.if_halved().statements
+    assert [one.partition(": ")[0] for one in said] == [
+        "as stated, 512 of 1024 cases (50 %)",
+        "with half the error of speed, 1024 of 1024 cases (100 %)",
+    ]
 
 
 def test_an_input_may_be_called_now():

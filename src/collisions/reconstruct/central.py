@@ -315,7 +315,8 @@ def _answer(
     impact = finish(partial(inputs_of, found), status, origin, on_failure, refusal, solve_case)
     warn_of_condition(origin)
     if not held:
-        state_instant("central", "`drag_a=`, `drag_b=`, where A runs into the rear of B")
+        wheels = "`drag_a=` and `drag_b=`, where A runs into the rear of B"
+        state_instant("central", f"`duration=`, {wheels}")
     return impact
 
 

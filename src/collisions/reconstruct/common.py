@@ -371,11 +371,13 @@ def warn_of_condition(origin: Reconstruction) -> None:
     warn_of_cases(warning, {sentence: ill})
 
 
-def state_instant(solver: str, wheels: str = "`tyres_a=`, `tyres_b=`") -> None:
-    """State of a study that its impacts were found as instants."""
+def state_instant(solver: str, missing: str = "`duration=`, `tyres_a=` and `tyres_b=`") -> None:
+    """State of a study that its impacts were found as instants, as what is ``missing`` was not
+    given.
+    """
     state_of_study(
         f"{solver} found every case as an instant, which leaves out the tyres and the "
-        f"motion while the contact lasts; give `duration=` and {wheels}. The statements "
+        f"motion while the contact lasts; give {missing}. The statements "
         "of one case say how much that is",
         "instant",
     )

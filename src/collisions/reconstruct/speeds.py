@@ -318,7 +318,8 @@ def speeds(
             attempt = search.while_tyres_act(attempt)
             state_motion("speeds")
         else:
-            state_instant("speeds")
+            also_missing = "" if given["duration"] is not None else "`duration=`, "
+            state_instant("speeds", f"{also_missing}`tyres_a=` and `tyres_b=`")
         also: tuple[str, ...] = ("restitution",) if search.function else ()
         if attempt.shows:
             also = (FRICTION,)

@@ -289,11 +289,9 @@ class Search:
         """
         knows_speed = any(name.startswith("speed") for name in self.known)
         knows_energy = bool({"energy_loss", "ees_a"} & self.known.keys())
-        # A place of a recorder and its axes are in the balance alone, and so is a bound, which has
-        # an end of a family where no speed is known.
-        alone = self.recorders is None and (knows_speed if self.slid else True)
         knows_more = len(self.known) == 2 or knows_speed or knows_energy
-        if self._balanced and not (alone and knows_more):
+        # A place of a recorder and its axes are in the balance alone.
+        if self._balanced and not (self.recorders is None and knows_more):
             return attempt
         scene, found = attempt.scene, attempt.found
         directions = {
@@ -321,8 +319,13 @@ class Search:
         inputs = attempt.inputs_of_way(of_starts)
         ended: Any = np.zeros((), dtype=bool)
         if self.slid and isinstance(scene, ComponentScene):
-            # Ends of families stay as they are.
-            ended = scene.of_way(of_starts[0]).ended
+            # Ends of families stay as they are, in the balance alone.
+            ended = np.logical_or.reduce(
+                [
+                    scene.of_way(of_starts[0]).ended,
+                    *(scene.of_way(root.way).ended & there for root, there in found),
+                ]
+            )
         begins = np.stack([np.stack(np.broadcast_arrays(*start)) for start in starts], axis=1)
         more = self._balanced and len(self.known) > 2
         beside_energy = more and knows_energy and not knows_speed and self.regime != "sliding"

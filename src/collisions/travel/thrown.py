@@ -16,7 +16,7 @@ from ..quantities.attributes import hypot, math_or_numpy
 from ..quantities.reading import ArgumentReader, at_least_zero
 from ..quantities.refusals import must_be
 from ..quantities.tables import Sentences
-from ..quantities.units import Input, Value, texts_of
+from ..quantities.units import Input, Value, has_unit, texts_of
 from ..vehicle.drag import GRAVITY, one_value, read_friction
 from .surfaces import in_one_precision, out_of_range, read_length, settle
 
@@ -179,12 +179,13 @@ def _read_angle(reader: ArgumentReader, value: Any) -> Any:
     """An angle above the level, within a quarter turn."""
     read = one_value(reader, value, "rad", "angle")
     if isinstance(read, float) and not abs(read) < _QUARTER:
+        in_degrees = f"; a bare number is in radians, so write '{read:g} deg'"
         return reader.refuse(
             must_be(
                 "angle",
                 "between -90 and 90 degrees",
                 value,
-                "; a bare number is in radians, so write '20 deg'",
+                "; write '20 deg'" if has_unit(value) or abs(read) >= 90.0 else in_degrees,
                 code="bad_angle",
             )
         )

@@ -5,8 +5,9 @@ input.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Container, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from ..messages.errors import InputError
@@ -18,6 +19,9 @@ from .distributions import Interval, Samples
 
 if TYPE_CHECKING:
     from .result import Propagation
+
+# A warning of more of the cases of a row by this share is said of that row again.
+_MORE = 0.05
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -149,7 +153,7 @@ def widths_if_halved(
     the same way, with so many cases.
     """
     widths, without, said = {}, {}, {}
-    known = {note.code for note in now.notes if note.warning}
+    known = {note.code: note.fields.get("share") for note in now.notes if note.warning}
     for name, one in now.inputs.items():
         if isinstance(one, (Distribution, Interval)):
             found = run({**now.inputs, name: with_half_the_error(one)})
@@ -177,17 +181,22 @@ def widths_if_halved(
     )
 
 
-def _warned_of(found: Propagation, known: Container[str] = ()) -> Iterator[str]:
-    """What was warned of these widths, but for the codes that are known, and cases without an
-    answer, which are counted in each row.
+def _warned_of(
+    found: Propagation, known: Mapping[str, Any] = MappingProxyType({})
+) -> Iterator[str]:
+    """What was warned of these widths, but for the codes that are ``known`` of as large a share of
+    the cases, and cases without an answer, which are counted in each row.
     """
     for note in found.notes:
         if note.code == "not_local":
             if note.fields["differences"]:
                 # Its size is another in each row.
                 yield note.statement.partition(". ")[0]
-        elif note.warning and note.code != "failed_cases" and note.code not in known:
-            yield note.statement
+        elif note.warning and note.code != "failed_cases":
+            share, before = note.fields.get("share"), known.get(note.code)
+            more = share is not None and before is not None and share > before + _MORE
+            if note.code not in known or more:
+                yield note.statement
 
 
 def with_half_the_error(stated: Distribution | Interval) -> Distribution | Interval:
