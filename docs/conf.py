@@ -90,6 +90,7 @@ def render_examples(source: Path, target: Path) -> None:
         fold_checks(notebook)
         notebook.metadata = NotebookNode(
             kernelspec={"name": "python3", "display_name": "Python 3", "language": "python"},
+            mystnb={"output_stderr": "warn"},  # an example that warns is none to show
         )
         told[script.stem] = title_and_caption(notebook, script.stem)
         write(target / f"{script.stem}.ipynb", jupytext.writes(notebook, fmt="ipynb"))
