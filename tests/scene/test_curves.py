@@ -5,6 +5,7 @@ evidence; and what is refused.
 from __future__ import annotations
 
 import math
+import warnings
 from typing import Any
 
 import numpy as np
@@ -13,6 +14,7 @@ import pytest
 import collisions as col
 from collisions.scene import Contact, Mover, Scene
 from collisions.travel import Tyres
+from collisions.uncertainty import Normal, propagate
 
 WHEELS = Tyres(0.7, [1.0, 0.1, 0.1, 0.1], 2.7, 1.5)
 HIT = {"restitution": 0.1, "friction": 0.5, "duration": 0.12}
@@ -34,6 +36,17 @@ def crash(**changes: Any) -> Scene:
         "B": Mover(b, outline=(4.4, 1.8), tyres=WHEELS),
     }
     return Scene(movers=movers, contacts=[Contact("A", "B", at="touch", **(HIT | changes))])
+
+
+def test_a_bare_time_in_a_path_is_warned_of_once() -> None:
+    """Where the path is read, and not again whenever it is looked at or worked out."""
+    asked = "contacts[0].impact.B.recorded(40).forward"
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        found = propagate(crash(), {"A.vx": Normal(16.0, 0.5)}, outputs=[asked], samples=64, seed=1)
+    (one,) = [one.message for one in caught if one.category is col.SuspectUnitsWarning]
+    assert "write '40 ms'" in str(one)
+    assert not any("time" in one for one in found.statements)
 
 
 def path(name: str, time: float, part: str) -> str:

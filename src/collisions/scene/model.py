@@ -66,7 +66,9 @@ def as_function(
     units = {path: unit_of_result(scene, path, argument) for path in wanted}
     marks = {path: asked for path in wanted if (asked := of_mark(scene, path, argument))}
     recorded = {
-        path: one for path in wanted if (one := asked_of(scene, path)) and one.sample is not None
+        path: one
+        for path in wanted
+        if (one := asked_of(scene, path, argument, warns=True)) and one.sample is not None
     }
     numbers = numbered(scene, wanted)
     if order is None:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import nullcontext
 from functools import cache
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -20,7 +21,7 @@ from ..impact.impact import Impact, part_of_impact
 from ..impact.vehicle_result import VehicleResult
 from ..kernels.elementwise import UNIT_INTERVAL
 from ..messages.errors import CollisionsWarning, InputError, MissingInputError, NoSolutionError
-from ..messages.warning import warn_of_cases
+from ..messages.warning import quietly, warn_of_cases
 from ..quantities.attributes import attributes, unit_of
 from ..quantities.formatting import KIND_OF
 from ..quantities.reading import ArgumentReader
@@ -148,8 +149,12 @@ def _unit(asked: OfImpact) -> str:
     return of_impact().get(asked.name, "m/s")
 
 
-def asked_of(scene: Scene, path: str, argument: str = "outputs") -> OfImpact | None:
-    """What a path asks for of an impact; None for a path that does not."""
+def asked_of(
+    scene: Scene, path: str, argument: str = "outputs", *, warns: bool = False
+) -> OfImpact | None:
+    """What a path asks for of an impact; None for a path that does not. It ``warns`` of numbers
+    without a unit where it is read first, and not whenever it is looked at again.
+    """
     if found := _TIME.fullmatch(path):
         return OfImpact(False, int(found[1]), "")
     contact = False
@@ -171,7 +176,9 @@ def asked_of(scene: Scene, path: str, argument: str = "outputs") -> OfImpact | N
         return OfImpact(contact, number, name)
     if ees := _EES.fullmatch(name):
         return OfImpact(contact, number, f"{ees[1]}.ees", _share(ees[2].strip(), path, argument))
-    if sample := sample_of(name, path, argument):
+    with nullcontext() if warns else quietly([]):
+        sample = sample_of(name, path, argument)
+    if sample:
         return OfImpact(contact, number, f"{sample.label}.recorded", sample=sample)
     return None
 
@@ -376,7 +383,8 @@ def _shown(impact: Impact, label: str, times: Any, forward: float, left: float, 
     if impact.pulse is None:
         raise no_curve(f"{path}: its contact is not followed in time", path, "outputs")
     vehicle = impact.a if label == "a" else impact.b
-    return np.array(vehicle.recorded(times, forward=forward, left=left))
+    with quietly([]):  # numbers without a unit were warned of where the path was read
+        return np.array(vehicle.recorded(times, forward=forward, left=left))
 
 
 def _numbers(run: Run, asked: OfImpact, path: str, order: Sequence[int] | None) -> Any:
