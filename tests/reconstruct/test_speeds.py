@@ -1363,3 +1363,45 @@ def test_no_answer_is_among_the_candidates_that_are_not_polished(near, monkeypat
     some = answers()
     monkeypatch.setattr("collisions.reconstruct.speeds_algebra._UNPOLISHED", math.inf)
     assert answers() == some
+
+
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+def test_a_function_of_restitution_loses_no_answer_beside_a_fold():
+    """Two answers whose restitutions differ by 3e-4, both in the cell of the search in which the
+    answers of that branch end: what B gains turns there, by a scan of B's speed.
+    """
+    a = col.Vehicle(mass=2808, yaw_inertia=3329, x=-2.245, y=-0.29, vx=19.44, vy=3.25)
+    b = col.Vehicle(mass=1631, yaw_inertia=1841, x=1.554, y=-0.866)
+    course = -1.716
+    way = np.array([math.cos(course), math.sin(course)])
+    contact = {"normal": -0.06, "point": (-0.047, -0.416), "friction": 0.209}
+
+    def restitution(closing):
+        return 0.5 * np.exp(-0.2 * closing)
+
+    def gained(speed):
+        moved = b.replace(vx=speed * way[0], vy=speed * way[1])
+        closing = (a.vx - moved.vx) * math.cos(-0.06) + (a.vy - moved.vy) * math.sin(-0.06)
+        return col.eccentric(a, moved, restitution(closing), **contact).b.delta_v
+
+    scanned = np.linspace(-3.0, 4.0, 141)
+    least = min(gained(one) for one in scanned)
+    for more in (1e-4, 1e-3, 1e-2):
+        known = least + more
+        found = speeds(
+            a,
+            b,
+            course_a=a.course,
+            course_b=course,
+            speed_a=a.speed,
+            delta_v_b=known,
+            restitution=restitution,
+            **contact,
+        )
+        along = sorted(one.b.before.vx * way[0] + one.b.before.vy * way[1] for one in found)
+        crossed = sum(
+            (gained(low) - known) * (gained(high) - known) < 0.0
+            for low, high in itertools.pairwise(scanned)
+        )
+        assert crossed == sum(-3.0 < one < 4.0 for one in along) == 2
+        assert [gained(one) for one in along] == pytest.approx([known] * len(along), rel=1e-7)

@@ -64,13 +64,10 @@ def _roots_on_grid(
     lines = _Lines(row, cases[of], np.broadcast_to(grid, values.shape), values)
     for number in range(how.closer):
         lines = _closer(mismatch, lines, how.near, min(number, 1))
-    signs, known, size = np.sign(lines.values), np.isfinite(lines.values), abs(lines.values)
+    known, size = np.isfinite(lines.values), abs(lines.values)
     # What is before the first cell of a part is looked at with the part there.
     own = min(how.closer, 1)
     changes = abs(np.diff(lines.values))
-
-    line, i = np.nonzero(_changes(signs)[:, own:])
-    brackets = [lines.brackets(line, i + own, i + own + 1)]
 
     line, i = np.nonzero(known[:, own:-1] != known[:, own + 1 :])
     i += own
@@ -81,17 +78,13 @@ def _roots_on_grid(
         near = ~(size[line, i] > how.near * changes[line, last])
         line, i, outside = line[near], i[near], outside[near]
     ending = lines.brackets(line, i, outside)
-    brackets.append(
-        ending._replace(high=_narrowed(mismatch, ending, _last_answer, 1, how.turns).low)
-    )
+    ending = ending._replace(high=_narrowed(mismatch, ending, _last_answer, 1, how.turns).low)
 
-    same = signs[:, :-1] * signs[:, 1:] > 0.0
-    turning = same[:, :-1] & same[:, 1:]
-    turning &= size[:, 1:-1] <= np.minimum(size[:, :-2], size[:, 2:])
-    if how.closer:
-        turning &= size[:, 1:-1] <= how.near * np.maximum(changes[:, :-1], changes[:, 1:])
-    line, i = np.nonzero(turning)
-    around, side = lines.brackets(line, i, i + 2), signs[line, i][:, np.newaxis]
+    # Answers often fold where they end, so that two are in the cell before.
+    before_end = _Lines(ending.row, ending.case, *_sampled(mismatch, ending, _PIECES))
+    looks = _looked_at(lines, how, own), _looked_at(before_end, how, 0)
+    around = _joined([one.around for one in looks])
+    side = np.concatenate([one.side for one in looks])[:, np.newaxis]
     turn = _narrowed(
         mismatch,
         around,
@@ -99,9 +92,8 @@ def _roots_on_grid(
         2,
         how.turns,
     )
-    brackets += [around._replace(high=turn.low), around._replace(low=turn.low)]
-
-    whole = _Brackets(*(np.concatenate(parts) for parts in zip(*brackets, strict=True)))
+    beside = around._replace(high=turn.low), around._replace(low=turn.low)
+    whole = _joined([*(one.changing for one in looks), *beside])
     _, ends = _sampled(mismatch, whole, 1)
     changing = ends[:, 0] * ends[:, 1] <= 0.0
     crossed = _Brackets(*(part[changing] for part in whole))
@@ -110,6 +102,31 @@ def _roots_on_grid(
         _near_zero(mismatch, found, how.largest)
         | (_near_zero(mismatch, turn, how.touching) if how.touching >= 0.0 else set())
     )
+
+
+class _Look(NamedTuple):
+    """What lines show: the cells in which the sign changes, those around a turning point, and the
+    sign there.
+    """
+
+    changing: _Brackets
+    around: _Brackets
+    side: Any
+
+
+def _looked_at(lines: _Lines, how: Narrowing, own: int) -> _Look:
+    """What lines show from the ``own`` cell of each on."""
+    signs, size = np.sign(lines.values), abs(lines.values)
+    line, i = np.nonzero(_changes(signs)[:, own:])
+    changing = lines.brackets(line, i + own, i + own + 1)
+    same = signs[:, :-1] * signs[:, 1:] > 0.0
+    turning = same[:, :-1] & same[:, 1:]
+    turning &= size[:, 1:-1] <= np.minimum(size[:, :-2], size[:, 2:])
+    if how.closer:
+        changes = abs(np.diff(lines.values))
+        turning &= size[:, 1:-1] <= how.near * np.maximum(changes[:, :-1], changes[:, 1:])
+    line, i = np.nonzero(turning)
+    return _Look(changing, lines.brackets(line, i, i + 2), signs[line, i])
 
 
 class _Lines(NamedTuple):
@@ -152,6 +169,11 @@ class _Brackets(NamedTuple):
     case: Any
     low: Any
     high: Any
+
+
+def _joined(parts: Sequence[_Brackets]) -> _Brackets:
+    """All of these brackets."""
+    return _Brackets(*(np.concatenate(part) for part in zip(*parts, strict=True)))
 
 
 def _near_zero(
