@@ -1019,6 +1019,19 @@ def test_an_island_counts_by_its_evidence():
     assert found.log_evidence_error == pytest.approx(first_order, rel=0.05)
 
 
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+def test_a_bare_angle_that_no_square_holds_is_answered():
+    """As any other angle, which goes round."""
+
+    def model(x):
+        return {"course": x * pint.get_application_registry().rad}
+
+    found = posterior(
+        model, {"x": Normal(0.0, 0.5)}, {"course": (-1e200, 0.5)}, samples=512, seed=1
+    )
+    assert abs(found["x"].mean) < 0.5 * math.pi
+
+
 def test_a_bare_observation_is_written_in_the_unit_of_what_the_model_predicts():
     """93112 J beside a prediction in ft·lbf would be read as the larger of the two."""
 

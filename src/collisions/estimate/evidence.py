@@ -76,7 +76,9 @@ def bare_angle_notes(
             continue
         ends = getattr(value, "low", None), getattr(value, "high", None)
         known = (value.given_mean,) if isinstance(value, Normal) else ends
-        worst = max((abs(one) for one in known if one is not None and one**2 < math.inf), default=0)
+        # A bound that is no number that can be squared stands for none.
+        sizes = [abs(one) for one in known if one is not None]
+        worst = max((one for one in sizes if one * one < math.inf), default=0.0)
         if worst > math.tau:
             yield Note(
                 SuspectUnitsWarning,
