@@ -1082,7 +1082,7 @@ POSTERIOR = reconstruct.posterior(
 class Uneven:
     """An unknown whose mean has an error of this share of its deviation."""
 
-    std = 2.0
+    mean, std = 0.0, 2.0
 
     def __init__(self, share):
         self.mean_standard_error = share * self.std
