@@ -12,7 +12,10 @@ from scipy import integrate, optimize, stats
 import collisions as col
 from collisions import uncertainty
 from collisions.travel import Tyres
-from collisions.uncertainty import Interval, Normal, Uniform, propagate
+from collisions.uncertainty import Interval, Normal, Triangular, Uniform, propagate
+from collisions.uncertainty.correction import corrected
+from collisions.uncertainty.finer import FinerModel
+from collisions.uncertainty.model import Model
 
 INPUTS = {"x": Normal(10.0, 1.0), "y": Uniform(0.0, 2.0)}
 
@@ -215,6 +218,69 @@ def test_a_crash_with_tyres_as_the_finer_model_alone():
         assert abs(near[name].mean - alone[name].mean) < 0.02 * gap
     assert near.calls == {"model": 8192, "finer": 512}
     assert near["delta_v_a"].to("mph").mean == pytest.approx(near["delta_v_a"].mean / 0.44704)
+
+
+def side_impact(speed_a, speed_b, friction, y, **lasting):
+    a = col.Vehicle(mass=1500, yaw_inertia=2500, vx=speed_a, x=-2.1, y=0.0, heading=0.0)
+    b = col.Vehicle(mass=1250, yaw_inertia=1900, vy=speed_b, x=0.9, y=-0.4, heading=1.57)
+    place = {"normal": 0.0, "point": (0.0, y)}
+    impact = col.eccentric(a, b, 0.1, friction=friction, **place, **lasting, on_failure="nan")
+    return {
+        "delta_v": impact.b.q.delta_v,
+        "yaw_rate": impact.b.after.q.yaw_rate,
+        "pdof": impact.a.q.pdof,
+    }
+
+
+def side_impact_with_tyres(**values):
+    tyres = Tyres(0.7, 0.2, 2.7, 1.5)
+    return side_impact(**values, duration=0.12, tyres_a=tyres, tyres_b=tyres)
+
+
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize("friction", [Triangular(0.3, 0.5, 0.8), Uniform(0.3, 0.8)])
+def test_a_regime_that_hardly_any_case_is_in_is_not_extrapolated_into(friction, seed):
+    """One contact in some hundreds slid: of those asked one or none, and of the rest every one
+    differs from all others in how its numbers hang together.
+    """
+    inputs = {
+        "speed_a": Normal(15.0, 1.5),
+        "speed_b": Normal(8.0, 1.0),
+        "friction": friction,
+        "y": Normal(0.2, 0.1),
+    }
+    near = propagate(side_impact, inputs, finer=side_impact_with_tyres, seed=seed)
+    exact = propagate(side_impact_with_tyres, inputs, seed=seed)
+    for name, one in exact.outputs.items():
+        assert near[name].std == pytest.approx(one.std, rel=0.01)
+        off = np.abs(near[name].values - one.values)
+        assert np.nanmax(off) < 0.5 * one.std
+        assert near[name].contributions == pytest.approx(one.contributions, abs=0.03)
+    more = near.calls["finer"] - 512
+    assert 0 <= more < 80
+    assert any(f"and {more} more that lie beyond these" in one for one in near.statements) == (
+        more > 0
+    )
+
+
+def test_more_cases_beyond_those_asked_than_were_asked_are_refused():
+    """The first 64 of 4,096 cases are of one regime, a tenth of all others of another."""
+
+    def model(x, rare):
+        return {"z": x, "other": np.where(rare > 1.0, 0.0, x)}
+
+    draws = np.concatenate([np.zeros(64), np.where(np.arange(4032) % 10 == 0, 2.0, 0.0)])
+    inputs = {"x": np.random.default_rng(1).normal(size=4096), "rare": draws}
+    answers = model(**inputs)
+    whole = Model(model, {})
+    whole.units = {"z": None, "other": None}
+    dearer = FinerModel(lambda x, rare: {"z": x + 1.0, "other": x}, {})
+    with pytest.raises(col.NoSolutionError, match="404 of 4096 cases lie so far beyond the 64"):
+        corrected(whole, dearer, inputs, answers, 64, 1)
+    found = corrected(whole, dearer, inputs, answers, 640, 1)
+    assert found.calls == 640
+    assert found.values["z"] == pytest.approx(inputs["x"] + 1.0)
 
 
 def test_directions_are_corrected_round_the_circle():

@@ -366,6 +366,20 @@ def test_a_comparison_states_the_warnings_of_its_posteriors():
     assert list(found.statements) == found.to_dict()["statements"]
 
 
+def test_a_comparison_states_what_too_few_samples_are_warned_of_to_be_raised():
+    def model(speed):
+        reference.restitution(speed, outside="warn")
+        return {"marks": speed}
+
+    prior, seen = {"speed": Normal(4.0, 0.95)}, {"marks": (4.0, 40.0)}
+    account, _ = quiet(lambda: reconstruct.posterior(model, prior, seen, samples=1024, seed=1))
+    (note,) = [one for one in account.model_notes if one.code == "outside_reference"]
+    assert note.warning is None
+    found, caught = quiet(lambda: reconstruct.compare({"one": account, "other": account}))
+    assert not caught
+    assert f"one: {note.statement}" in found.statements
+
+
 def test_a_report_prints_what_the_study_was_warned_of():
     impact = col.eccentric(A, B, 0.2, normal=0.0, point=(0.0, 0.0), impulse_ratio=0.1)
     found, _ = quiet(

@@ -191,7 +191,7 @@ def compare(
         f"{name}: {note.statement}"
         for name, one in posteriors.items()
         for note in notes_of(one)
-        if note.warning
+        if note.warning or note.fields.get("cases")  # too few of the cases to be raised
     ]
     found = Comparison(
         probability=after,

@@ -22,6 +22,9 @@ from .result import NO_SPREAD, Sampled, Shares, average, deviation
 
 _FOLDS = 8
 _PER_TERM = 4  # cases for each term of a regression
+# Times the scatter, and at most the spread of an output: where a correction may err by more, the
+# finer model is asked.
+_MOST_OFF = 10.0
 _FLAT = 1e-9  # directions of the terms that the cases do not determine
 _MOST_SCATTER = 1.0 / 3.0  # of the spread of an output
 _STAND_INS = 32  # drawings of what is left, of the cases that the finer model was asked
@@ -33,7 +36,9 @@ class Correction(NamedTuple):
 
     ``by`` are the coefficients by output of all cases and then of all but each fold; ``scatter``
     the standard deviation of what is left in cross-validation, and ``left`` that by case: first
-    those at ``places``, which both models answer.
+    those at ``places``, which both models answer. ``reach`` is how far the terms of the cases that
+    were learnt from go along each of its directions (columns), and ``farthest`` how many times
+    as far others may.
     """
 
     powers: int
@@ -43,31 +48,53 @@ class Correction(NamedTuple):
     scatter: dict[str, float]
     left: dict[str, Any]
     places: Any
+    reach: tuple[Any, Any]
+    farthest: float = _MOST_OFF
 
     def changes(self, columns: Any) -> dict[str, Any]:
         """What is to be added to each output (1 + folds, cases) at these inputs and outputs."""
-        # An output without an answer says nothing of the others.
-        scaled = np.nan_to_num((columns - self.middles) / self.sizes)
-        terms = _terms(scaled, self.powers)
+        terms = self._terms(columns)
         return {name: (terms @ by).T for name, by in self.by.items()}
+
+    def beyond(self, columns: Any) -> Any:
+        """Which cases lie so far beyond those learnt from that a regression says nothing of them:
+        it errs by the scatter times this (the root of the leverage).
+
+        So do those of a regime in which hardly a case learnt from is: what depends on the inputs in
+        one way in all others does so in another there.
+        """
+        directions, sizes = self.reach
+        share = (self._terms(columns) @ directions) / sizes
+        constant = np.isinf(self.sizes)
+        apart = abs(columns - self.middles)[:, constant]
+        moved = apart > NO_SPREAD * np.maximum(abs(self.middles[constant]), NO_SPREAD)
+        return (np.sum(share**2, axis=1) > self.farthest**2) | np.any(moved, axis=1)
+
+    def _terms(self, columns: Any) -> Any:
+        # An output without an answer says nothing of the others.
+        return _terms(np.nan_to_num((columns - self.middles) / self.sizes), self.powers)
 
 
 class CorrectedModel(Model):
     """A model with the mean correction, without the scatter that remains."""
 
-    def __init__(self, model: Model, correction: Correction, names: tuple[str, ...]) -> None:
+    def __init__(
+        self, model: Model, finer: Model, correction: Correction, names: tuple[str, ...]
+    ) -> None:
         super().__init__(model.function, model.fixed)
         self.units, self._checked = model.units, True
-        self.correction, self.names = correction, names
+        self.finer, self.correction, self.names = finer, correction, names
 
     def __call__(self, values: Mapping[str, Any], count: int, check: bool = True) -> Answers:
         """The outputs of the cases."""
         answers = super().__call__(values, count, check)
-        changes = self.correction.changes(_columns(values, answers, self.names))
-        return Answers(
-            {name: _moved(answers[name], changes[name][0], self.units[name]) for name in answers},
-            answers.sides,
-        )
+        columns = _columns(values, answers, self.names)
+        changes, beyond = self.correction.changes(columns), self.correction.beyond(columns)
+        found = {
+            name: _moved(answers[name], changes[name][0], self.units[name]) for name in answers
+        }
+        _put_exact(found, self.finer, values, beyond)
+        return Answers(found, answers.sides)
 
 
 class Asked(NamedTuple):
@@ -226,12 +253,17 @@ def corrected(
     scatter = dict.fromkeys(answers, 0.0)
     # Where all samples were asked of the finer model, its shares of variance are its own too.
     surrogate: Model = finer
+    beyond: Any = np.zeros(total, dtype=bool)
     if count < total:
         names = tuple(name for name, column in inputs.items() if np.ptp(column) > 0.0)
         columns = _columns(inputs, answers, names)
         correction = _regressed(model, columns[:count], first, exact)
-        _check_scatter(model, correction, exact)
-        surrogate, scatter = CorrectedModel(model, correction, names), correction.scatter
+        farthest = min(_MOST_OFF, _check_scatter(model, correction, exact))
+        correction = correction._replace(farthest=farthest)
+        beyond = correction.beyond(columns)
+        beyond[:count] = False
+        _check_beyond(beyond, count)
+        surrogate, scatter = CorrectedModel(model, finer, correction, names), correction.scatter
         # The same case's differences for all outputs, so that these stay together.
         random = np.random.Generator(
             np.random.PCG64DXSM(np.random.SeedSequence(seed, spawn_key=(5,)))
@@ -244,14 +276,40 @@ def corrected(
             values[name] = _moved(answers[name], by[0] + left[drawn], unit)
             changes[name] = by[1:] - by[0]
             asked_of[name] = Asked(places, left[: len(places)], orders)
+        _put_exact(values, finer, inputs, beyond)
+        known = beyond | (np.arange(total) < count)
+        for name in answers:
+            changes[name][:, known] = 0.0
     for name in answers:
         values[name][:count] = exact[name]
-        changes[name][:, :count] = 0.0
-    notes = tuple(_notes(model, finer, scatter, values, count, total, int(np.sum(unlike))))
-    return Corrected(values, changes, asked_of, surrogate, scatter, count, notes)
+    more = int(np.count_nonzero(beyond))
+    notes = tuple(_notes(model, finer, scatter, values, (count, more, total), int(np.sum(unlike))))
+    return Corrected(values, changes, asked_of, surrogate, scatter, count + more, notes)
 
 
 _ALONE = "run the finer model alone: propagate(finer, inputs)"
+
+
+def _put_exact(values: dict[str, Any], finer: Model, inputs: Mapping[str, Any], which: Any) -> None:
+    """Put what the finer model answers in these cases in place of the values."""
+    if not np.any(which):
+        return
+    asked = {name: np.array(column[which]) for name, column in inputs.items()}
+    for name, column in finer(asked, int(np.count_nonzero(which))).items():
+        values[name][which] = column
+
+
+def _check_beyond(beyond: Any, count: int) -> None:
+    """Refuse a correction of which more cases lie beyond those asked than were asked."""
+    many = int(np.count_nonzero(beyond))
+    if many > count:
+        raise NoSolutionError(
+            f"{many} of {len(beyond)} cases lie so far beyond the {count} that were asked of the "
+            "finer model, as where contacts slide and hardly one asked did, that these do not tell "
+            f"how to correct them; give more `finer_samples=`, or {_ALONE}",
+            code="too_different",
+            cases=many,
+        )
 
 
 def _columns(inputs: Mapping[str, Any], answers: Mapping[str, Any], names: tuple[str, ...]) -> Any:
@@ -305,6 +363,7 @@ def _regressed(
     sizes_left = unit * np.sqrt(np.mean((left / unit) ** 2, axis=0))
     # As many as the cases, so that each can be drawn.
     rows = np.arange(len(columns)) % len(known)
+    _, reach, directions = np.linalg.svd(_terms(scaled, powers), full_matrices=False)
     return Correction(
         powers,
         middles,
@@ -313,6 +372,7 @@ def _regressed(
         dict(zip(apart, sizes_left.tolist(), strict=True)),
         {name: left[rows, k] for k, name in enumerate(apart)},
         np.flatnonzero(answered),
+        (directions.T, np.maximum(reach, _FLAT * reach[0])),
     )
 
 
@@ -344,8 +404,11 @@ def _moved(values: Any, by: Any, unit: str | None) -> Any:
     return found
 
 
-def _check_scatter(model: Model, correction: Correction, exact: Mapping[str, Any]) -> None:
-    """Refuse a correction that leaves too much."""
+def _check_scatter(model: Model, correction: Correction, exact: Mapping[str, Any]) -> float:
+    """Refuse a correction that leaves too much; gives how many times as wide as that an output is,
+    at the least.
+    """
+    least = math.inf
     for name, scatter in correction.scatter.items():
         if scatter > 0.0 and np.all(np.isin(exact[name], (0.0, 1.0))):
             raise NoSolutionError(
@@ -367,6 +430,9 @@ def _check_scatter(model: Model, correction: Correction, exact: Mapping[str, Any
                 code="too_different",
                 output=name,
             )
+        if scatter > NO_SPREAD * size:
+            least = min(least, float(spread) / scatter)
+    return least
 
 
 def _notes(
@@ -374,11 +440,14 @@ def _notes(
     finer: FinerModel,
     scatter: Mapping[str, float],
     values: Mapping[str, Any],
-    count: int,
-    total: int,
+    counts: tuple[int, int, int],
     unlike: int,
 ) -> Iterator[Note]:
-    """What the correction rests on, and what both models warned of."""
+    """What the correction rests on, and what both models warned of; ``counts`` are the cases asked,
+    those asked besides, and all.
+    """
+    count, more, total = counts
+    besides = f", and {more} more that lie beyond these" if more else ""
     if count == total:
         yield Note(
             None, f"all {total} cases were asked of the finer model, whose answers these are"
@@ -391,7 +460,8 @@ def _notes(
         )
         yield Note(
             None,
-            f"corrected towards the finer model, which was asked about {count} of {total} cases: "
+            f"corrected towards the finer model, which was asked about {count} of {total} cases"
+            f"{besides}: "
             "what the correction does not foresee has, in cross-validation, a standard deviation "
             f"(and share of that of the output) of {listed}, and is contained in the figures",
         )

@@ -124,10 +124,11 @@ def propagate(
         A model that takes the same inputs and returns the same outputs, and costs more. It is asked
         about a few hundred of the samples; all samples are corrected by how the difference follows
         from the inputs and the outputs of ``model`` there (a regression), and what it leaves is
-        added as scatter. The statements say how much that is, in cross-validation. Where it depends
-        on the inputs, as beside a bend of the finer model, ends of ranges are off; their standard
-        errors, and those of probabilities, are then what the cases asked tell of the difference.
-        Only for methods that draw, without ``tolerance``.
+        added as scatter. The statements say how much that is, in cross-validation. Samples far
+        beyond those asked, such as a few in which a contact slid, are asked too. Where what is left
+        depends on the inputs, as beside a bend of the finer model, ends of ranges are off; their
+        standard errors, and those of probabilities, are then what the cases asked tell of the
+        difference. Only for methods that draw, without ``tolerance``.
     finer_samples : int, optional
         How many samples the finer model is asked about, at least 64; 512 if not given, or all if
         there are fewer.
