@@ -458,10 +458,13 @@ class Posterior(SpeedsFound, Summarized):
 
 def notes_of(found: Posterior) -> Iterator[Note]:
     """The notes on a posterior in the order of importance: first whether the evidence agrees."""
-    apart = {
-        f"the prior of {name}": (one.mean - found.priors[name].mean) / found.priors[name].sd
-        for name, one in found.unknowns.items()
-    }
+    apart = {}
+    for name, one in found.unknowns.items():
+        prior = found.priors[name]
+        with np.errstate(all="ignore"):
+            off = float(np.float64(one.mean - prior.mean) / prior.sd)
+        if math.isfinite(off):
+            apart[f"the prior of {name}"] = off
     yield agreement(found.p_value, found.residuals, apart=apart)
     for name in found.prior_only:
         sentence = (
