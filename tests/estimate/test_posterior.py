@@ -202,6 +202,17 @@ def test_censored_readings_of_a_normal_prior(case):
         assert (furthest in next(notes_of(found)).rest) is (chance < 0.01)
 
 
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+def test_sharp_bounds_that_add_nothing_do_not_hide_a_contradiction():
+    """The chance is that of one unknown so far off its prior, however many bounds say so."""
+    bounds = {f"x{k}": Censored(low=3.5 - 0.1 * k) for k in range(5)}
+    found = posterior(
+        lambda x: dict.fromkeys(bounds, x), {"x": Normal(0.0, 1.0)}, bounds, samples=512, seed=1
+    )
+    assert found.p_value == pytest.approx(math.erfc(3.5 / math.sqrt(2.0)), rel=0.05)
+    assert not found.consistent
+
+
 def test_a_reading_of_bounds_is_missed_by_what_is_observed_less_what_is_computed():
     """Below them more was observed than computed, above them less."""
     reading = CensoredReading("x", Censored(0.3, 0.4, 0.05))

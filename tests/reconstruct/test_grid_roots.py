@@ -39,6 +39,28 @@ def one_place_alone(x):
     return np.where(abs(x - GRID[80]) < 0.6 * CELL, x - GRID[80] - 0.25 * CELL, np.nan)
 
 
+def zero_alone(x):
+    """An answer at one place of the grid alone, which is the root."""
+    return np.where(x == GRID[80], 0.0, np.nan)
+
+
+def _fold(after):
+    """Two roots about a turning point so many cells after the place before the last that has an
+    answer, less than a piece of a cell apart.
+    """
+    turn = GRID[84] + after * CELL
+
+    def fold(x):
+        apart = ((x - turn) / CELL) ** 2 - 1e-6
+        return np.where(x <= GRID[84] + 0.7 * CELL, apart, np.nan)
+
+    fold.__name__ = f"fold {after}"
+    return fold, [turn - 1e-3 * CELL, turn + 1e-3 * CELL]
+
+
+FOLDS = dict(_fold(after) for after in (-0.4, -0.05, 0.02, 0.05, 0.4, 0.6))
+
+
 def far(x):
     return 2.0 + x
 
@@ -49,6 +71,8 @@ FUNCTIONS = {
     steep_end: [0.3 + 0.5**10],
     two_in_a_cell: [0.504, 0.506],
     one_place_alone: [GRID[80] + 0.25 * CELL],
+    zero_alone: [GRID[80]],
+    **FOLDS,
     far: [],
     np.sin: [0.0],
 }

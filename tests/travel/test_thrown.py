@@ -141,7 +141,7 @@ def test_what_cannot_be_is_refused(distance, given, error, code):
 @pytest.mark.filterwarnings("ignore::collisions.SuspectUnitsWarning")
 @pytest.mark.parametrize(("angle", "said"), [(10.0, "'10 deg'"), (100.0, "'20 deg'")])
 def test_a_bare_angle_in_degrees_is_refused_with_what_to_write(angle, said):
-    with pytest.raises(col.InputError, match=f"write {said}"):
+    with pytest.raises(col.InputError, match=f"for degrees write {said}"):
         travel.throw_speed(20.0, friction=0.7, angle=angle)
 
 

@@ -264,6 +264,34 @@ def test_a_regime_that_hardly_any_case_is_in_is_not_extrapolated_into(friction, 
     )
 
 
+@pytest.mark.parametrize(("least", "most_off"), [(3.1, 1e-9), (2.6, 0.5)])
+@pytest.mark.parametrize("unlike", [0.0, 1e-3])
+def test_a_difference_that_is_one_number_is_not_taken_for_that_of_another_regime(
+    least, most_off, unlike
+):
+    """Beyond the least x the model is off by more than 100. Of the cases asked one or none is
+    there, which is then alone: what is left of it is no scatter of the others. Or a few are, and
+    the others there are corrected by these.
+    """
+
+    def model(x, y):
+        return {"z": np.where(x > least, 50.0 * x, x) + y}
+
+    def finer(x, y):
+        usual = model(x, y)["z"] + 0.1 + unlike * np.sin(1e4 * x)
+        return {"z": np.where(x > least, x + y, usual)}
+
+    inputs = {"x": Normal(0.0, 1.0), "y": Normal(1.0, 0.2)}
+    for seed in range(4):
+        near, exact = (
+            propagate(one, inputs, seed=seed, **more)["z"]
+            for one, more in ((model, {"finer": finer}), (finer, {}))
+        )
+        assert near.std == pytest.approx(exact.std, rel=2e-3)
+        assert np.max(abs(near.values - exact.values)) < 5.0 * unlike + most_off
+        assert near.contributions["y"] == pytest.approx(0.04 / 1.04, abs=0.01)
+
+
 def test_more_cases_beyond_those_asked_than_were_asked_are_refused():
     """The first 64 of 4,096 cases are of one regime, a tenth of all others of another."""
 

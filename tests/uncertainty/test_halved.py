@@ -313,6 +313,21 @@ def test_what_more_cases_of_a_row_are_warned_of_is_said_of_it_again():
     ]
 
 
+def test_two_warnings_of_one_code_are_told_apart():
+    """Each row has as many of both as the cases as they are stated."""
+
+    def model(speed, factor):
+        restitution = reference.restitution(np.where(factor > 1.0, 8.0, 3.0), outside="warn")
+        crush = reference.restitution(np.where(factor > 1.08, 8.0, 3.0), outside="warn")
+        return {"e": restitution * crush * factor + 0.01 * speed}
+
+    inputs = {"speed": Uniform(1.0, 5.0), "factor": Normal(1.0, 0.05)}
+    with pytest.warns(col.OutOfRangeWarning):
+        found = propagate(model, inputs, samples=1024, seed=1)
+    said = found.if_halved().statements
+    assert [one.partition(", ")[0] for one in said] == ["as stated"]
+
+
 def test_an_input_may_be_called_now():
     with pytest.warns(col.OutOfRangeWarning):
         found = propagate(

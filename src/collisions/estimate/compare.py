@@ -191,7 +191,7 @@ def compare(
         f"{name}: {note.statement}"
         for name, one in posteriors.items()
         for note in notes_of(one)
-        if note.warning or note.fields.get("cases")  # too few of the cases to be raised
+        if note.warning or note.fields.get("cases")  # also of what only some cases are warned of
     ]
     found = Comparison(
         probability=after,

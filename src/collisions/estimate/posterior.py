@@ -487,7 +487,9 @@ class _Problem:
             log_evidence_error=math.sqrt(float(np.var(left_out)) * (len(logs) - 1)),
             p_value=chi_squared_tail(
                 float(np.min(squares)) - _best_above_least(len(self.joint.inputs), len(scores)),
-                sum(row.reading.sigma > 0.0 for row in self.rows) or len(self.rows),
+                # Sharp bounds alone hold as many unknowns as there are at most.
+                sum(row.reading.sigma > 0.0 for row in self.rows)
+                or min(len(self.rows), len(self.joint.inputs)),
             ),
             refused=refused,
             moved=min(one.moved for one in islands),

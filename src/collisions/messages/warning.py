@@ -166,13 +166,14 @@ def of_some(where: Any) -> Iterator[None]:
         yield
     finally:
         _sampling.reset(token)
-    for one in mine:
-        whole = np.array(where)
-        if np.shape(one.where) == (np.count_nonzero(where),):
-            whole[where] = one.where
-        elif one.where is not None:
-            whole &= np.any(one.where)
-        said.append(one._replace(where=whole))
+        for one in mine:
+            whole = np.array(where)
+            own = _by_case(one.where, int(np.count_nonzero(where)))
+            if own is not None:
+                whole[where] = own
+            elif one.where is not None:
+                whole &= np.any(one.where)
+            said.append(one._replace(where=whole))
 
 
 def noted_in_call(said: Iterable[Said], count: int) -> list[Noted]:

@@ -80,9 +80,23 @@ def _roots_on_grid(
     ending = lines.brackets(line, i, outside)
     ending = ending._replace(high=_narrowed(mismatch, ending, _last_answer, 1, how.turns).low)
 
-    # Answers often fold where they end, so that two are in the cell before.
-    before_end = _Lines(ending.row, ending.case, *_sampled(mismatch, ending, _PIECES))
-    looks = _looked_at(lines, how, own), _looked_at(before_end, how, 0)
+    # Answers often fold where they end, so that two are in the cell before, or beside its start.
+    places, values = _sampled(mismatch, ending, _PIECES)
+    before, last = 2 * i - outside, lines.values.shape[1] - 1
+    there = (before >= 0) & (before <= last)
+    before = np.clip(before, 0, last)
+    ahead = lines.places[line, before], np.where(there, lines.values[line, before], np.nan)
+    before_end = _Lines(
+        ending.row,
+        ending.case,
+        *(
+            np.insert(part, 0, first, axis=1)
+            for part, first in zip((places, values), ahead, strict=True)
+        ),
+    )
+    looks = _looked_at(lines, how, own), _looked_at(before_end, how, 1)
+    # What is 0 all the way changes no sign.
+    flat = _Brackets(*(part[np.all(values == 0.0, axis=1)] for part in ending))
     around = _joined([one.around for one in looks])
     side = np.concatenate([one.side for one in looks])[:, np.newaxis]
     turn = _narrowed(
@@ -93,7 +107,7 @@ def _roots_on_grid(
         how.turns,
     )
     beside = around._replace(high=turn.low), around._replace(low=turn.low)
-    whole = _joined([*(one.changing for one in looks), *beside])
+    whole = _joined([*(one.changing for one in looks), *beside, flat])
     _, ends = _sampled(mismatch, whole, 1)
     changing = ends[:, 0] * ends[:, 1] <= 0.0
     crossed = _Brackets(*(part[changing] for part in whole))

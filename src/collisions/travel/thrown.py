@@ -179,13 +179,14 @@ def _read_angle(reader: ArgumentReader, value: Any) -> Any:
     """An angle above the level, within a quarter turn."""
     read = one_value(reader, value, "rad", "angle")
     if isinstance(read, float) and not abs(read) < _QUARTER:
-        in_degrees = f"; a bare number is in radians, so write '{read:g} deg'"
+        bare = not isinstance(value, str) and not has_unit(value)
+        meant = f"{read:g}" if bare and abs(read) < 90.0 else "20"
         return reader.refuse(
             must_be(
                 "angle",
                 "between -90 and 90 degrees",
                 value,
-                "; write '20 deg'" if has_unit(value) or abs(read) >= 90.0 else in_degrees,
+                f"; a bare number is in radians: for degrees write '{meant} deg'",
                 code="bad_angle",
             )
         )

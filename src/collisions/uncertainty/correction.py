@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..messages.errors import NoSolutionError, OutOfRangeWarning
-from ..messages.warning import Note, notes_of_samples
+from ..messages.warning import Calls, Note, notes_of_samples
 from . import turns
 from .designs import REPLICATES
 from .distribution import show
@@ -23,8 +23,10 @@ from .result import NO_SPREAD, Sampled, Shares, average, deviation
 _FOLDS = 8
 _PER_TERM = 4  # cases for each term of a regression
 # Times the scatter, and at most the spread of an output: where a correction may err by more, the
-# finer model is asked.
-_MOST_OFF = 10.0
+# finer model is asked, but about no larger a share of the cases than this, or than it was before.
+_MOST_OFF, _MOST_BEYOND = 10.0, 0.02
+# Even a correction that is one number for all cases was learnt of those like them.
+_LEAST_POWERS = 1
 _FLAT = 1e-9  # directions of the terms that the cases do not determine
 _MOST_SCATTER = 1.0 / 3.0  # of the spread of an output
 _STAND_INS = 32  # drawings of what is left, of the cases that the finer model was asked
@@ -36,9 +38,9 @@ class Correction(NamedTuple):
 
     ``by`` are the coefficients by output of all cases and then of all but each fold; ``scatter``
     the standard deviation of what is left in cross-validation, and ``left`` that by case: first
-    those at ``places``, which both models answer. ``reach`` is how far the terms of the cases that
-    were learnt from go along each of its directions (columns), and ``farthest`` how many times
-    as far others may.
+    those at ``places``, of which it was learnt. ``reach`` has the directions of the terms (columns)
+    and how far those of the cases learnt from go along each; others may go ``farthest`` times as
+    far.
     """
 
     powers: int
@@ -49,52 +51,52 @@ class Correction(NamedTuple):
     left: dict[str, Any]
     places: Any
     reach: tuple[Any, Any]
-    farthest: float = _MOST_OFF
+    farthest: float
 
     def changes(self, columns: Any) -> dict[str, Any]:
         """What is to be added to each output (1 + folds, cases) at these inputs and outputs."""
-        terms = self._terms(columns)
+        terms = self._terms(columns, self.powers)
         return {name: (terms @ by).T for name, by in self.by.items()}
 
     def beyond(self, columns: Any) -> Any:
-        """Which cases lie so far beyond those learnt from that a regression says nothing of them:
-        it errs by the scatter times this (the root of the leverage).
+        """Which cases lie so far beyond those learnt from that the regression says nothing of them.
 
-        So do those of a regime in which hardly a case learnt from is: what depends on the inputs in
-        one way in all others does so in another there.
+        It errs there by the scatter times the root of the leverage, which is how far a case goes in
+        the directions of ``reach``. A case of a regime in which hardly one learnt from is goes far,
+        as its outputs hang together with the inputs in another way than those of all others.
         """
         directions, sizes = self.reach
-        share = (self._terms(columns) @ directions) / sizes
+        share = (self._terms(columns, max(self.powers, _LEAST_POWERS)) @ directions) / sizes
         constant = np.isinf(self.sizes)
         apart = abs(columns - self.middles)[:, constant]
         moved = apart > NO_SPREAD * np.maximum(abs(self.middles[constant]), NO_SPREAD)
         return (np.sum(share**2, axis=1) > self.farthest**2) | np.any(moved, axis=1)
 
-    def _terms(self, columns: Any) -> Any:
+    def _terms(self, columns: Any, powers: int) -> Any:
         # An output without an answer says nothing of the others.
-        return _terms(np.nan_to_num((columns - self.middles) / self.sizes), self.powers)
+        return _terms(np.nan_to_num((columns - self.middles) / self.sizes), powers)
 
 
 class CorrectedModel(Model):
     """A model with the mean correction, without the scatter that remains."""
 
-    def __init__(
-        self, model: Model, finer: Model, correction: Correction, names: tuple[str, ...]
-    ) -> None:
+    def __init__(self, model: Model, correction: Correction, names: tuple[str, ...]) -> None:
         super().__init__(model.function, model.fixed)
         self.units, self._checked = model.units, True
-        self.finer, self.correction, self.names = finer, correction, names
+        self.correction, self.names = correction, names
 
     def __call__(self, values: Mapping[str, Any], count: int, check: bool = True) -> Answers:
-        """The outputs of the cases."""
+        """The outputs of the cases; NaN for those that the correction says nothing of, which shares
+        of variance leave out.
+        """
         answers = super().__call__(values, count, check)
         columns = _columns(values, answers, self.names)
         changes, beyond = self.correction.changes(columns), self.correction.beyond(columns)
-        found = {
-            name: _moved(answers[name], changes[name][0], self.units[name]) for name in answers
-        }
-        _put_exact(found, self.finer, values, beyond)
-        return Answers(found, answers.sides)
+        by = {name: np.where(beyond, np.nan, one[0]) for name, one in changes.items()}
+        return Answers(
+            {name: _moved(answers[name], by[name], self.units[name]) for name in answers},
+            answers.sides,
+        )
 
 
 class Asked(NamedTuple):
@@ -253,17 +255,17 @@ def corrected(
     scatter = dict.fromkeys(answers, 0.0)
     # Where all samples were asked of the finer model, its shares of variance are its own too.
     surrogate: Model = finer
-    beyond: Any = np.zeros(total, dtype=bool)
+    evenly, more = list(finer.noted), 0
     if count < total:
         names = tuple(name for name, column in inputs.items() if np.ptp(column) > 0.0)
         columns = _columns(inputs, answers, names)
         correction = _regressed(model, columns[:count], first, exact)
-        farthest = min(_MOST_OFF, _check_scatter(model, correction, exact))
-        correction = correction._replace(farthest=farthest)
+        least = _check_scatter(model, correction, exact)
+        correction = correction._replace(farthest=min(correction.farthest, least))
         beyond = correction.beyond(columns)
         beyond[:count] = False
         _check_beyond(beyond, count)
-        surrogate, scatter = CorrectedModel(model, finer, correction, names), correction.scatter
+        surrogate, scatter = CorrectedModel(model, correction, names), correction.scatter
         # The same case's differences for all outputs, so that these stay together.
         random = np.random.Generator(
             np.random.PCG64DXSM(np.random.SeedSequence(seed, spawn_key=(5,)))
@@ -276,37 +278,35 @@ def corrected(
             values[name] = _moved(answers[name], by[0] + left[drawn], unit)
             changes[name] = by[1:] - by[0]
             asked_of[name] = Asked(places, left[: len(places)], orders)
-        _put_exact(values, finer, inputs, beyond)
-        known = beyond | (np.arange(total) < count)
+        more = int(np.count_nonzero(beyond))
+        if more:
+            too = finer({name: np.array(column[beyond]) for name, column in inputs.items()}, more)
+            missing = [np.isnan(too[name]) != np.isnan(answers[name][beyond]) for name in answers]
+            unlike = np.concatenate([unlike, np.any(missing, axis=0)])
         for name in answers:
-            changes[name][:, known] = 0.0
+            if more:
+                values[name][beyond] = too[name]
+            changes[name][:, beyond | (np.arange(total) < count)] = 0.0
     for name in answers:
         values[name][:count] = exact[name]
-    more = int(np.count_nonzero(beyond))
-    notes = tuple(_notes(model, finer, scatter, values, (count, more, total), int(np.sum(unlike))))
+    # Those beyond were chosen: what is warned of them is of so many of all.
+    noted = evenly, [(total, said) for _, said in finer.noted[len(evenly) :]]
+    counts = count, more, total
+    notes = tuple(_notes(model, scatter, values, counts, int(np.sum(unlike)), noted))
     return Corrected(values, changes, asked_of, surrogate, scatter, count + more, notes)
 
 
 _ALONE = "run the finer model alone: propagate(finer, inputs)"
 
 
-def _put_exact(values: dict[str, Any], finer: Model, inputs: Mapping[str, Any], which: Any) -> None:
-    """Put what the finer model answers in these cases in place of the values."""
-    if not np.any(which):
-        return
-    asked = {name: np.array(column[which]) for name, column in inputs.items()}
-    for name, column in finer(asked, int(np.count_nonzero(which))).items():
-        values[name][which] = column
-
-
 def _check_beyond(beyond: Any, count: int) -> None:
-    """Refuse a correction of which more cases lie beyond those asked than were asked."""
+    """Refuse a correction of which too many cases lie beyond those asked."""
     many = int(np.count_nonzero(beyond))
-    if many > count:
+    if many > max(count, _MOST_BEYOND * len(beyond)):
         raise NoSolutionError(
             f"{many} of {len(beyond)} cases lie so far beyond the {count} that were asked of the "
-            "finer model, as where contacts slide and hardly one asked did, that these do not tell "
-            f"how to correct them; give more `finer_samples=`, or {_ALONE}",
+            "finer model, in a long tail or where contacts slide and hardly one asked did, that "
+            f"these do not tell how to correct them; give more `finer_samples=`, or {_ALONE}",
             code="too_different",
             cases=many,
         )
@@ -320,7 +320,9 @@ def _columns(inputs: Mapping[str, Any], answers: Mapping[str, Any], names: tuple
 def _regressed(
     model: Model, columns: Any, first: Mapping[str, Any], exact: Mapping[str, Any]
 ) -> Correction:
-    """The regression with the powers that foresee best what it has not seen."""
+    """The regression with the powers that foresee best what it has not seen, of the cases that are
+    not each alone in its way: what all others tell of such a one, and it of them, is nothing.
+    """
     apart = {}
     for name, column in first.items():
         difference = exact[name] - column
@@ -336,11 +338,23 @@ def _regressed(
             code="too_different",
             cases=int(np.count_nonzero(answered)),
         )
-    known = columns[answered]
+    for _ in range(_FOLDS):
+        found = _learnt(columns, apart, answered)
+        alone = answered.copy()
+        alone[answered] = found.beyond(columns[answered])
+        if not np.any(alone) or np.count_nonzero(answered & ~alone) < _FOLDS:
+            break
+        answered = answered & ~alone
+    return found._replace(farthest=_MOST_OFF)
+
+
+def _learnt(columns: Any, apart: Mapping[str, Any], which: Any) -> Correction:
+    """The regression on these cases, of what each output differs by."""
+    known = columns[which]
     middles, sizes = np.mean(known, axis=0), np.std(known, axis=0)
     sizes = np.where(sizes > NO_SPREAD * np.maximum(abs(middles), NO_SPREAD), sizes, math.inf)
     scaled = np.nan_to_num((known - middles) / sizes)
-    targets = np.stack([one[answered] for one in apart.values()], axis=1)
+    targets = np.stack([one[which] for one in apart.values()], axis=1)
     fold = np.arange(len(scaled)) % _FOLDS
     best: tuple[float, int, Any, Any] | None = None
     # In units of the differences themselves, for one choice of powers for all outputs.
@@ -363,7 +377,8 @@ def _regressed(
     sizes_left = unit * np.sqrt(np.mean((left / unit) ** 2, axis=0))
     # As many as the cases, so that each can be drawn.
     rows = np.arange(len(columns)) % len(known)
-    _, reach, directions = np.linalg.svd(_terms(scaled, powers), full_matrices=False)
+    terms = _terms(scaled, max(powers, _LEAST_POWERS))
+    _, reach, directions = np.linalg.svd(terms, full_matrices=False)
     return Correction(
         powers,
         middles,
@@ -371,8 +386,10 @@ def _regressed(
         {name: by_all[:, :, k].T for k, name in enumerate(apart)},
         dict(zip(apart, sizes_left.tolist(), strict=True)),
         {name: left[rows, k] for k, name in enumerate(apart)},
-        np.flatnonzero(answered),
+        np.flatnonzero(which),
         (directions.T, np.maximum(reach, _FLAT * reach[0])),
+        # Of a case that was learnt from: without it, its leverage h is h / (1 - h).
+        _MOST_OFF / math.hypot(1.0, _MOST_OFF),
     )
 
 
@@ -437,14 +454,14 @@ def _check_scatter(model: Model, correction: Correction, exact: Mapping[str, Any
 
 def _notes(
     model: Model,
-    finer: FinerModel,
     scatter: Mapping[str, float],
     values: Mapping[str, Any],
     counts: tuple[int, int, int],
     unlike: int,
+    noted: tuple[Calls, Calls],
 ) -> Iterator[Note]:
-    """What the correction rests on, and what both models warned of; ``counts`` are the cases asked,
-    those asked besides, and all.
+    """What the correction rests on, and what the finer model warned of: ``noted`` of the cases
+    asked, and of those asked besides. ``counts`` are those numbers, and that of all.
     """
     count, more, total = counts
     besides = f", and {more} more that lie beyond these" if more else ""
@@ -468,13 +485,14 @@ def _notes(
     if unlike:
         yield Note(
             OutOfRangeWarning,
-            f"in {unlike} of {count} cases asked of both, model and finer differ on whether there "
-            "is an answer; the other cases are answered where model answers",
+            f"in {unlike} of {count + more} cases asked of both, model and finer differ on whether "
+            "there is an answer; the other cases are answered where model answers",
             code="finer_differs",
             fields={"cases": unlike},
         )
-    for note in notes_of_samples(finer.noted):
-        yield note._replace(sentence=f"finer: {note.sentence}")
+    for whose, calls in zip(("finer", "finer, of those that lie beyond"), noted, strict=True):
+        for note in notes_of_samples(calls):
+            yield note._replace(sentence=f"{whose}: {note.sentence}")
 
 
 def _spread(values: Any) -> float:

@@ -5,12 +5,14 @@ input.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from ..messages.errors import InputError
+from ..messages.warning import Note
 from ..quantities.strict_json import strict
 from ..quantities.tables import Cells, Part, Summarized, Summary, as_sentence, given_texts
 from ..quantities.units import shown, to_quantity
@@ -153,7 +155,7 @@ def widths_if_halved(
     the same way, with so many cases.
     """
     widths, without, said = {}, {}, {}
-    known = {note.code: note.fields.get("share") for note in now.notes if note.warning}
+    known = {_without_counts(note): note.fields.get("share") for note in now.notes if note.warning}
     for name, one in now.inputs.items():
         if isinstance(one, (Distribution, Interval)):
             found = run({**now.inputs, name: with_half_the_error(one)})
@@ -182,10 +184,10 @@ def widths_if_halved(
 
 
 def _warned_of(
-    found: Propagation, known: Mapping[str, Any] = MappingProxyType({})
+    found: Propagation, known: Mapping[tuple[str, str], Any] = MappingProxyType({})
 ) -> Iterator[str]:
-    """What was warned of these widths, but for the codes that are ``known`` of as large a share of
-    the cases, and cases without an answer, which are counted in each row.
+    """What was warned of these widths, but for what is ``known`` of as large a share of the cases,
+    and cases without an answer, which are counted in each row.
     """
     for note in found.notes:
         if note.code == "not_local":
@@ -193,10 +195,16 @@ def _warned_of(
                 # Its size is another in each row.
                 yield note.statement.partition(". ")[0]
         elif note.warning and note.code != "failed_cases":
-            share, before = note.fields.get("share"), known.get(note.code)
+            said = _without_counts(note)
+            share, before = note.fields.get("share"), known.get(said)
             more = share is not None and before is not None and share > before + _MORE
-            if note.code not in known or more:
+            if said not in known or more:
                 yield note.statement
+
+
+def _without_counts(note: Note) -> tuple[str, str]:
+    """The code of a warning and what it says, without of how many cases."""
+    return note.code, re.sub(r"^\d+ of \d+ cases \([^)]*\)", "", note.statement)
 
 
 def with_half_the_error(stated: Distribution | Interval) -> Distribution | Interval:
