@@ -8,6 +8,8 @@ import re
 import pytest
 
 import collisions as col
+from collisions.scene import Mover, Scene
+from collisions.travel import Tyres
 from crashes import coasting, three_cars
 
 FT_LBF = 1.3558179483314004
@@ -45,6 +47,24 @@ def test_the_ledger_adds_up_as_it_is_printed() -> None:
     by_hand = 0.5 * 0.45359237 * 0.44704**2 * (3400 * 40**2 + 2750 * 20**2) / FT_LBF
     assert start == pytest.approx(by_hand, abs=0.5)
     assert float(re.search(r"([\d.e-]+) percent", ledger)[1]) < 0.1
+
+
+def test_a_vehicle_at_rest_without_a_heading_takes_no_energy(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Nor does the account print what is no number where an energy is not known."""
+    tyres = Tyres(0.7, 1.0, 2.7, 1.5)
+    moving = col.Vehicle(mass=1500, yaw_inertia=2500, vx=15.0, x=0.0, y=0.0, heading=0.0)
+    standing = col.Vehicle(mass=1300, yaw_inertia=2000, x=50.0, y=8.0)
+    movers = {"A": Mover(moving, tyres=tyres), "B": Mover(standing, tyres=tyres)}
+    run = Scene(movers=movers, contacts=[]).run()
+    energy = run.energy
+    assert energy["ground"] == pytest.approx(energy["before"], rel=1e-5)
+    assert " percent of that at the start" in col.explain(run)
+    monkeypatch.setattr(type(run), "energy", property(lambda _: energy | {"ground": math.nan}))
+    page = col.explain(run)
+    assert "not accounted for | not known" in page
+    assert "nan" not in page.split()
 
 
 def test_places_of_rest_are_those_of_the_run() -> None:

@@ -70,9 +70,12 @@ def ledger(page: Page, run: Run) -> list[tuple[str, str, str]]:
         rows.append((of, f"taken by impact {number + 1}", page.number(taken, "energy")))
     open_ = energy["before"] - math.fsum((*energy["contacts"], energy["ground"], energy["left"]))
     share = abs(open_) / energy["before"] if energy["before"] > 0.0 else 0.0
+    closes = (
+        "not known" if math.isnan(share) else f"{100.0 * share:.2g} percent of that at the start"
+    )
     return [
         *rows,
         ("ground", "taken by tyres, drag and slope", page.number(energy["ground"], "energy")),
         ("scene", "kinetic energy at the end", page.number(energy["left"], "energy")),
-        ("scene", "not accounted for", f"{100.0 * share:.2g} percent of that at the start"),
+        ("scene", "not accounted for", closes),
     ]

@@ -75,6 +75,8 @@ def on_tyres(tyres: Tyres, mover: Mover, ground: Ground, state: Any, cases: Any 
         pull = load * here[at] * weight
         power -= pull * (along * (forward - turn * aside[at]) + across * (left + turn * ahead[at]))
         use[at] = np.where(speed > 0.0, np.hypot(along, across), 0.0)
+    # At rest they take nothing, also of a vehicle whose heading is not known.
+    power = np.where(speed > 0.0, power, 0.0)
     return OnTyres(power, np.array([px, py]).swapaxes(0, 1), use)
 
 
