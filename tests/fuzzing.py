@@ -522,7 +522,9 @@ class Case(random.Random):
             Texts,
         ):
             self._look_at(value, kind, documented, thorough)
-        if isinstance(value, Mapping | tuple | list) and id(value) not in self._within:
+        # A list of lists of lists that was given as an input is not read to its end.
+        nested = id(value) in self._within or len(self._within) > 50
+        if isinstance(value, Mapping | tuple | list) and not nested:
             around, self._within = self._within, self._within | {id(value)}
             for part in value.values() if isinstance(value, Mapping) else value:
                 self._look(part, label, documented, thorough)

@@ -147,3 +147,16 @@ def test_two_that_come_nearer_for_longer_than_is_looked_at_are_refused(described
     assert caught.value.code == "touch_undecided"
     both = creeps(np.array([400.0, 10.0])).run()
     assert both.status.tolist() == ["touch_undecided", "ok"]
+
+
+def test_a_car_that_stops_within_no_time_stands_from_then_on() -> None:
+    """Nor is there an overflow on the way, at a time that is 1e308 times as long."""
+    body = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=1.0, y=2.0, heading=0.0, vx=1e-309)
+    moving = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=9.0, y=9.0, heading=0.0, vx=20.0)
+    movers = {
+        name: Mover(one, outline=(4.5, 1.8), drag=0.6) for name, one in (("A", body), ("B", moving))
+    }
+    run = Scene(movers=movers, contacts=[]).run()
+    later = run.at(3.0)["A"]
+    assert (later.x, later.y, later.vx) == (1.0, 2.0, 0.0)
+    assert "<svg" in str(col.play(run))

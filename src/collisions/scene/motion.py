@@ -84,7 +84,7 @@ class Leg(NamedTuple):
         after = after - held
         found = np.empty_like(begin)
         stops = self.stops[cases]
-        part = np.minimum(after / np.where(stops > 0.0, stops, 1.0), 1.0)
+        part = np.minimum(after, stops) / np.where(stops > 0.0, stops, 1.0)
         part = np.where(stops > 0.0, part, 1.0)
         whole = np.isinf(stops)
         further = np.where(whole, after, np.where(whole, 0.0, stops) * part * (1 - 0.5 * part))
