@@ -314,18 +314,23 @@ def test_what_more_cases_of_a_row_are_warned_of_is_said_of_it_again():
 
 
 def test_two_warnings_of_one_code_are_told_apart():
-    """Each row has as many of both as the cases as they are stated."""
+    """Two formulas outside their ranges, in half of the cases and in a twentieth, in each row as in
+    the cases as they are stated.
+    """
 
-    def model(speed, factor):
-        restitution = reference.restitution(np.where(factor > 1.0, 8.0, 3.0), outside="warn")
-        crush = reference.restitution(np.where(factor > 1.08, 8.0, 3.0), outside="warn")
-        return {"e": restitution * crush * factor + 0.01 * speed}
+    def model(first, second):
+        often = reference.restitution(np.where(first > 0.0, 8.0, 3.0), outside="warn")
+        length = np.where(abs(second) < 0.05, 9.0, 4.5)
+        seldom = reference.yaw_inertia(1500.0, length=length, wheelbase=2.7, outside="warn")
+        return {"e": often + 1e-6 * seldom}
 
-    inputs = {"speed": Uniform(1.0, 5.0), "factor": Normal(1.0, 0.05)}
+    inputs = {"first": Uniform(-1.0, 1.0), "second": Samples([-1.0, 1.0] * 19 + [0.0] * 2)}
     with pytest.warns(col.OutOfRangeWarning):
         found = propagate(model, inputs, samples=1024, seed=1)
+    shares = [one.fields["share"] for one in found.notes if one.code == "outside_reference"]
+    assert shares == pytest.approx([0.5, 0.05], abs=0.02)
     said = found.if_halved().statements
-    assert [one.partition(", ")[0] for one in said] == ["as stated"]
+    assert [one.partition(", ")[0] for one in said] == ["as stated", "as stated"]
 
 
 def test_an_input_may_be_called_now():
