@@ -3,6 +3,7 @@
 import json
 import math
 import pickle
+import re
 import warnings
 
 import numpy as np
@@ -384,7 +385,12 @@ def test_a_few_cases_that_only_one_model_answers_are_said():
         warnings.simplefilter("always")
         found = propagate(line, INPUTS, finer=finer, seed=1)
     assert [one.message.code for one in given] == ["finer_differs", "failed_cases"]
-    assert "differ on whether there is an answer" in str(given[0].message)
+    asked = re.match(
+        r"in (\d+) of 512 cases asked of both, .* among the other 7680, .* about (\d+) will",
+        str(given[0].message),
+    )
+    assert asked is not None
+    assert int(asked[2]) == round(7680 * int(asked[1]) / 512)
     assert found.failed == int(np.sum(np.isnan(found["z"].values)))
 
 
@@ -450,6 +456,43 @@ def test_the_scatter_is_told_with_its_share_of_the_spread_of_the_output():
     share = float(said.split(" z ")[1].split("(")[1].split(" %")[0])
     assert share == pytest.approx(100.0 * near.scatter["z"] / near["z"].std, rel=0.05)
     assert share == pytest.approx(20.8, rel=0.1)
+
+
+def test_what_is_not_foreseen_is_no_share_of_an_input():
+    """A ripple of 0.6 on a variance of 2: 0.18 of 2.18, of which the regression sees nothing."""
+    near = propagate(
+        lambda x, y, z: {"o": x + y},
+        {"x": Normal(0.0, 1.0), "y": Normal(0.0, 1.0), "z": Uniform(-1.0, 1.0)},
+        finer=lambda x, y, z: {"o": x + y + 0.6 * np.sin(15.0 * z)},
+        seed=1,
+    )
+    assert any("as a share of the variance belongs to no input" in one for one in near.statements)
+    for shares in (near["o"].contributions, near["o"].total_contributions):
+        assert shares == {
+            "x": pytest.approx(1.0 / 2.18, abs=0.02),
+            "y": pytest.approx(1.0 / 2.18, abs=0.02),
+            "z": pytest.approx(0.0, abs=0.005),
+        }
+    kept = sum(near["o"].contributions.values())
+    assert kept == pytest.approx(1.0 - (near.scatter["o"] / near["o"].std) ** 2, abs=0.01)
+
+
+def test_what_the_cases_asked_cannot_show_is_said():
+    """The finer model differs in a slot that holds one case in 5,000, and none of those asked."""
+    near = propagate(
+        lambda x, y: {"o": 0.3 * x + y},
+        {"x": Uniform(0.0, 1.0), "y": Normal(0.0, 1.0)},
+        finer=lambda x, y: {"o": 0.3 * x + y + np.where(abs(x - 0.3) < 1e-4, 8.0, 0.0)},
+        seed=1,
+    )
+    assert near.scatter["o"] == 0.0
+    assert any("in fewer than 3 of 512 cases may be missed" in one for one in near.statements)
+    share, error = near["o"].probability(lambda values: values > 6.0)
+    assert share == 0.0
+    assert error == pytest.approx(1.0 / 512.0, rel=0.01)
+    # Of what holds in samples, not of a condition that can be asked again.
+    _, error = near.probability(lambda of: of["o"] > 6.0)
+    assert error == pytest.approx(1.0 / 512.0, rel=0.01)
 
 
 def test_the_error_of_a_mean_is_mostly_that_of_the_few_cases_asked():

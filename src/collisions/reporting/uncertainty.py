@@ -100,7 +100,12 @@ class Spread:
             sheet.say(
                 "Variance from an input: its share by itself, and in all, with its interactions "
                 "with other inputs. Where the shares fall short of 100 % by more than their "
-                "errors, the rest comes from interactions."
+                "errors, the rest comes from interactions"
+                + (
+                    ", and from what the correction does not foresee."
+                    if uncertainty.scatter
+                    else "."
+                )
             )
         stated = [self._stated(sheet, *row) for row in uncertainty.inputs.items()]
         sheet.table([("Inputs as stated", *row) for row in stated])

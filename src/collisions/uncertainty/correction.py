@@ -30,6 +30,7 @@ _LEAST_POWERS = 1
 _FLAT = 1e-9  # directions of the terms that the cases do not determine
 _MOST_SCATTER = 1.0 / 3.0  # of the spread of an output
 _STAND_INS = 32  # drawings of what is left, of the cases that the finer model was asked
+_SEEN = 3  # cases: what is to be expected in so many is in at least one of them, at 95 percent
 _MOST_UNLIKE = 0.01  # of the cases: one model answers them, the other does not
 
 
@@ -174,8 +175,12 @@ class CorrectedOutput(Sampled):
     def _share(self, held: Any, again: Again | None = None) -> tuple[float, float]:
         share, drawn = super()._share(held, again)
         places = self._asked.places
-        if again is None or not len(places):
+        if not len(places):
             return share, drawn
+        # Of what the finer model alone does in fewer cases than that, those asked show nothing.
+        unseen = 1.0 / len(places)
+        if again is None:
+            return share, max(drawn, unseen)
 
         def without(one: Any, k: int) -> Any:
             """All samples as corrected without a fold of the cases asked."""
@@ -195,7 +200,7 @@ class CorrectedOutput(Sampled):
         apart = held[places] - np.mean(stands, axis=0)
         apart = apart[~np.isnan(apart)]
         missed = math.hypot(float(np.mean(apart)), float(np.std(apart)) / math.sqrt(apart.size))
-        return share, math.hypot(drawn, max(learnt, missed))
+        return share, math.hypot(drawn, max(learnt, missed, unseen))
 
 
 class Corrected(NamedTuple):
@@ -210,6 +215,18 @@ class Corrected(NamedTuple):
     scatter: dict[str, float]
     calls: int
     notes: tuple[Note, ...]
+
+    def shares(self, foreseen: Callable[[], Mapping[str, Shares]]) -> dict[str, Shares]:
+        """Shares of the variance that the correction foresees, as shares of the whole variance."""
+        found = {}
+        for name, one in foreseen().items():
+            column = self.values[name]
+            column = turns.counted(column) if self.model.units[name] == "rad" else column
+            kept = 1.0 - min(1.0, self.scatter[name] / _spread(column)) ** 2
+            found[name] = Shares(
+                *({label: kept * share for label, share in part.items()} for part in one)
+            )
+        return found
 
 
 def corrected(
@@ -292,7 +309,7 @@ def corrected(
     # Those beyond were chosen: what is warned of them is of so many of all.
     noted = evenly, [(total, said) for _, said in finer.noted[len(evenly) :]]
     counts = count, more, total
-    notes = tuple(_notes(model, scatter, values, counts, int(np.sum(unlike)), noted))
+    notes = tuple(_notes(model, scatter, values, counts, unlike, noted))
     return Corrected(values, changes, asked_of, surrogate, scatter, count + more, notes)
 
 
@@ -457,11 +474,12 @@ def _notes(
     scatter: Mapping[str, float],
     values: Mapping[str, Any],
     counts: tuple[int, int, int],
-    unlike: int,
+    unlike: Any,
     noted: tuple[Calls, Calls],
 ) -> Iterator[Note]:
     """What the correction rests on, and what the finer model warned of: ``noted`` of the cases
-    asked, and of those asked besides. ``counts`` are those numbers, and that of all.
+    asked, and of those asked besides. ``counts`` are those numbers, and that of all; ``unlike``
+    says of each case asked whether only one of the models answers it.
     """
     count, more, total = counts
     besides = f", and {more} more that lie beyond these" if more else ""
@@ -480,15 +498,26 @@ def _notes(
             f"corrected towards the finer model, which was asked about {count} of {total} cases"
             f"{besides}: "
             "what the correction does not foresee has, in cross-validation, a standard deviation "
-            f"(and share of that of the output) of {listed}, and is contained in the figures",
+            f"(and share of that of the output) of {listed}; it is contained in the figures, "
+            "and as a share of the variance belongs to no input. What the finer model alone does "
+            f"in fewer than {_SEEN} of {count} cases may be missed",
         )
-    if unlike:
+    if cases := int(np.count_nonzero(unlike)):
+        others = total - count - more
+        # Those beyond were chosen, and say nothing of how many others differ.
+        as_many = round(others * float(np.mean(unlike[:count])))
+        rest = (
+            f"; among the other {others}, which are answered where model answers, about {as_many} "
+            "will differ as well"
+            if as_many
+            else ""
+        )
         yield Note(
             OutOfRangeWarning,
-            f"in {unlike} of {count + more} cases asked of both, model and finer differ on whether "
-            "there is an answer; the other cases are answered where model answers",
+            f"in {cases} of {count + more} cases asked of both, model and finer differ on whether "
+            f"there is an answer{rest}",
             code="finer_differs",
-            fields={"cases": unlike},
+            fields={"cases": cases},
         )
     for whose, calls in zip(("finer", "finer, of those that lie beyond"), noted, strict=True):
         for note in notes_of_samples(calls):

@@ -128,7 +128,9 @@ def propagate(
         beyond those asked, such as a few in which a contact slid, are asked too. Where what is left
         depends on the inputs, as beside a bend of the finer model, ends of ranges are off; their
         standard errors, and those of probabilities, are then what the cases asked tell of the
-        difference. Only for methods that draw, without ``tolerance``.
+        difference. What it leaves is due to no input in ``contributions``, and what the finer model
+        alone does in fewer than three of the cases asked may be missed. Only for methods that draw,
+        without ``tolerance``.
     finer_samples : int, optional
         How many samples the finer model is asked about, at least 64; 512 if not given, or all if
         there are fewer.
@@ -604,7 +606,8 @@ def _sampled(
         with np.errstate(all="ignore"):
             better = corrected(model, dearer, inputs, sample.outputs, wanted_finer, seed)
         sample.outputs, model = Answers(better.values, {}), better.model
-    shares = cache(partial(sampled_shares, model, joint, design, min(count, _SHARE_SAMPLES)))
+    foreseen = partial(sampled_shares, model, joint, design, min(count, _SHARE_SAMPLES))
+    shares = cache(foreseen if better is None else partial(better.shares, foreseen))
     sides = sample.outputs.sides
     outputs: dict[str, Any] = {
         name: OneSidedOutput(name, model.units[name], values, sides[name], shares)

@@ -265,7 +265,7 @@ class Output(Summarized):
     @property
     def contributions(self) -> dict[str, float]:
         """Share of the variance due to each input alone, largest first; the rest, up to 1, is
-        interaction.
+        interaction, and with ``finer=`` what its correction does not foresee (``scatter``).
         """
         return _ranked(self._shares().first)
 
