@@ -1588,14 +1588,14 @@ def test_results_of_a_record_are_all_there_and_no_others(change, said):
     assert caught.value.code == "bad_record"
 
 
-def test_the_reason_of_a_choice_may_be_worded_otherwise(impacts):
+def test_the_reason_of_a_choice_may_be_worded_otherwise_by_another_version(impacts):
     """Its numbers may not."""
     impact = impacts["solve, linear"]
     page = report(impact, form="markdown")
-    assert (
-        replay(tampered(page, lambda r: r["impact"]["results"]["choice"].update(reason="Another.")))
-        == impact
-    )
+    worded = tampered(page, lambda r: r["impact"]["results"]["choice"].update(reason="Another."))
+    with pytest.raises(col.InputError, match=r"its inputs do not give its choice\.reason"):
+        replay(worded)
+    assert replay(tampered(worded, lambda r: r.update(version="0.1.0"))) == impact
     with pytest.raises(col.InputError, match=r"its inputs do not give its choice\.errors"):
         replay(
             tampered(

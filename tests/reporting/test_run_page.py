@@ -215,7 +215,7 @@ def test_every_number_of_the_impacts_in_a_record_is_held_against_the_scene() -> 
     assert replay(f"{head}{json.dumps(record)}\n```\n") == run
 
 
-def test_a_record_without_its_impacts_is_refused_and_other_words_of_a_finding_pass() -> None:
+def test_a_record_without_its_impacts_and_one_with_other_words_of_a_finding_are_refused() -> None:
     a = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=-6.0, y=0.3, vx=14.0, heading=0.0)
     b = col.Vehicle(mass=1200.0, yaw_inertia=1900.0, x=0.0, y=0.0, heading="90 deg")
     movers = {
@@ -228,8 +228,19 @@ def test_a_record_without_its_impacts_is_refused_and_other_words_of_a_finding_pa
     head = page[: page.index("```json\n") + 8]
     record = json.loads(page[len(head) : page.rindex("```")])
     assert record["run"]["findings"]
-    for finding in record["run"]["findings"]:
-        finding["sentence"] = "In other words."
+    finding, version = record["run"]["findings"][0], record["version"]
+    said = finding["sentence"]
+    for words in ("All is well.", 1.0, None):
+        finding["sentence"] = words
+        with pytest.raises(col.InputError, match=r"give its findings\[0\]\.sentence, "):
+            replay(f"{head}{json.dumps(record)}\n```\n")
+    # Another version may word it differently, and a number is no wording.
+    record["version"] = "0.1.0"
+    with pytest.raises(col.InputError, match=r"give its findings\[0\]\.sentence, "):
+        replay(f"{head}{json.dumps(record)}\n```\n")
+    finding["sentence"] = "In other words."
+    assert replay(f"{head}{json.dumps(record)}\n```\n") == run
+    finding["sentence"], record["version"] = said, version
     assert replay(f"{head}{json.dumps(record)}\n```\n") == run
     del record["run"]["impacts"]
     with pytest.raises(col.InputError, match="its inputs do not give its impacts, which is miss"):

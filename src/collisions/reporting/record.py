@@ -74,7 +74,7 @@ _READ_AGAIN = 2e-9
 # Results of another machine may differ by its rounding, relative or in SI; a page does not show
 # that many digits.
 _OTHER_MACHINE = 1e-6
-# Sentences, which another version may word differently.
+# Sentences.
 _SENTENCES = ("choice.reason", "].sentence")
 
 
@@ -230,18 +230,22 @@ def replay(text: str) -> Impact | MomentumSolution | Run | list[Impact | Momentu
     >>> report(replay(page), form="markdown") == page
     True
     """
+    from .. import __version__
+
     found = _whole(text)
+    # Another version may word a sentence differently.
+    as_worded = found.get("version") == __version__
     if "run" in found:
-        return _run(found["run"])
+        return _run(found["run"], as_worded)
     if "results" not in found:
-        return _replayed(found)
+        return _replayed(found, as_worded)
     parts = found["results"]
     if not isinstance(parts, list) or not all(isinstance(part, Mapping) for part in parts):
         raise _bad("its results are no list of records")
-    return [_replayed(part) for part in parts]
+    return [_replayed(part, as_worded) for part in parts]
 
 
-def _replayed(found: Mapping[str, Any]) -> Impact | MomentumSolution:
+def _replayed(found: Mapping[str, Any], as_worded: bool) -> Impact | MomentumSolution:
     """One result solved again from its part of the record."""
     if kind := next((kind for kind in ("fit", "posterior") if kind in found), ""):
         raise InputError(
@@ -259,7 +263,7 @@ def _replayed(found: Mapping[str, Any]) -> Impact | MomentumSolution:
         impact = Impact.from_dict(found["impact"])
     except CollisionsError as error:
         raise _bad(str(error)) from error
-    _check(found["impact"]["results"], impact.to_dict()["results"])
+    _check(found["impact"]["results"], impact.to_dict()["results"], as_worded)
     for contradiction in chain(contradicted(impact), contradicted_origin(impact)):
         raise _bad(contradiction)
     texts = found.get("other_texts")
@@ -272,7 +276,7 @@ def _replayed(found: Mapping[str, Any]) -> Impact | MomentumSolution:
     return with_vehicles(impact, a, b)
 
 
-def _run(whole: Any) -> Run:
+def _run(whole: Any, as_worded: bool) -> Run:
     """A scene run again from a record."""
     try:
         run = Run.from_dict(whole)
@@ -283,7 +287,7 @@ def _run(whole: Any) -> Run:
         {name: part for name, part in record.items() if name != "scene"}
         for record in (whole, json.loads(json.dumps(run.to_dict())))
     )
-    _check(recorded, found)
+    _check(recorded, found, as_worded)
     return run
 
 
@@ -419,12 +423,13 @@ def _whole(text: Any) -> Mapping[str, Any]:
     return found
 
 
-def _check(recorded: Any, found: Any) -> None:
+def _check(recorded: Any, found: Any, as_worded: bool = True) -> None:
     """Raise if the record's results are incomplete or differ from those of its inputs by more than
-    rounding may.
+    rounding may; sentences, unless ``as_worded``, may be any texts.
     """
     scale = max((abs(number) for number in _floats(found)), default=0.0)
-    differing = next(_differences(recorded, found, "", max(_OTHER_MACHINE, 1e-12 * scale)), None)
+    off = max(_OTHER_MACHINE, 1e-12 * scale)
+    differing = next(_differences(recorded, found, "", off, as_worded), None)
     if differing is not None:
         raise _bad(f"its inputs do not give its {differing}")
 
@@ -437,7 +442,9 @@ def _floats(found: Any) -> Iterator[float]:
         yield found
 
 
-def _differences(recorded: Any, found: Any, name: str, off: float) -> Iterator[str]:
+def _differences(
+    recorded: Any, found: Any, name: str, off: float, as_worded: bool
+) -> Iterator[str]:
     if isinstance(recorded, Mapping) and isinstance(found, Mapping):
         for key in dict.fromkeys([*found, *recorded]):
             path = f"{name}.{key}" if name else str(key)
@@ -445,11 +452,13 @@ def _differences(recorded: Any, found: Any, name: str, off: float) -> Iterator[s
                 yield f"{path}, which is missing"
             elif key not in found:
                 yield f"{path}, which no impact has"
-            elif not path.endswith(_SENTENCES):
-                yield from _differences(recorded[key], found[key], path, off)
+            else:
+                yield from _differences(recorded[key], found[key], path, off, as_worded)
     elif isinstance(recorded, list) and isinstance(found, list) and len(recorded) == len(found):
         for i, (one, other) in enumerate(zip(recorded, found, strict=True)):
-            yield from _differences(one, other, f"{name}[{i}]", off)
+            yield from _differences(one, other, f"{name}[{i}]", off, as_worded)
+    elif not as_worded and name.endswith(_SENTENCES) and isinstance(recorded, str):
+        return
     elif isinstance(recorded, (int, float)) and isinstance(found, float):
         # JSON may hold whole numbers beyond any float.
         if not (
