@@ -1164,6 +1164,17 @@ def test_a_body_on_a_pivot_is_an_infinite_mass_there():
     assert found.b.delta_yaw_rate == pytest.approx(wanted.b.delta_yaw_rate, rel=5e-5)
 
 
+def test_a_body_that_goes_round_while_the_contact_lasts_is_refused():
+    """Where nothing moves the number of turns does not matter."""
+    for rate in (70.0, 5e3, 1e20):
+        spinning = {"b": col.Vehicle(**B | {"yaw_rate": f"{rate} rad/s"})}
+        for geometry in ("first_contact", "maximum_engagement"):
+            with pytest.raises(col.NoSolutionError, match="turns more than once") as caught:
+                t_bone(0.2, **spinning, duration=0.1, geometry=geometry)
+            assert caught.value.code == "turns_too_far"
+        assert t_bone(0.2, **spinning, duration=0.1, geometry="fixed", drag=0.0).energy_loss > 0.0
+
+
 def test_refused_contacts():
     """One that tyres hold does not end; one whose start cannot be found, or that lies apart there;
     too large for floats.
@@ -1173,7 +1184,7 @@ def test_refused_contacts():
         t_bone(0.3, **slow, duration=0.3, geometry="first_contact")
     assert caught.value.code == "endless_contact"
     spinning = {
-        "a": col.Vehicle(**A | {"vx": 3.0, "yaw_rate": 15.0}),
+        "a": col.Vehicle(**A | {"vx": 3.0, "yaw_rate": 12.0}),
         "b": col.Vehicle(**B | {"vy": 0.0}),
     }
     with pytest.raises(col.NoSolutionError, match="geometry='first_contact'") as caught:

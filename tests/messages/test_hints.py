@@ -259,6 +259,18 @@ PUBLIC = {
 
 
 @pytest.mark.parametrize("name", PUBLIC)
+def test_an_argument_in_capitals_is_the_one_that_is_meant(name):
+    """The A of speed_A is not B."""
+    function = PUBLIC[name]
+    for argument, one in inspect.signature(function).parameters.items():
+        if one.kind in (one.VAR_POSITIONAL, one.VAR_KEYWORD):
+            continue
+        for written in {argument.upper(), f"{argument[:-1]}{argument[-1].upper()}"} - {argument}:
+            with pytest.raises(TypeError, match=rf"'{written}'; write {argument}="):
+                function(**{written: 1.0})
+
+
+@pytest.mark.parametrize("name", PUBLIC)
 def test_every_public_function_says_what_arguments_it_has(name):
     names = list(inspect.signature(PUBLIC[name]).parameters)
     assert "unknown" not in names

@@ -19,6 +19,7 @@ import pytest
 import collisions as col
 from collisions.quantities.units import si_unit
 from collisions.uncertainty import (
+    Censored,
     Distribution,
     Interval,
     LogNormal,
@@ -787,6 +788,10 @@ BIG = 1.7e308
             "truncate[1] must be finite, got inf; write None for an end that is open"),
         (lambda: Normal("1 m", "1 m", truncate=("-inf m", None)), col.InputError, "not_finite",
             "truncate[0] must be finite, got '-inf m'; write None"),
+        (lambda: Normal("10 mph", "1 mph", truncate=("0 mph", "20 m")), col.UnitsError,
+            "bad_units", "truncate[1]: '20 m' cannot be taken as m/s"),
+        (lambda: Censored(low=1.0, error=math.nan), col.InputError, "not_finite",
+            "error is NaN; leave it out for a sharp bound"),
         (lambda: LogNormal.between(1, 2, 0.9, truncate=(0, math.nan)), col.InputError,
             "not_finite", "truncate[1] is NaN; write None"),
         (lambda: Normal(1, 1, truncate=(0, [1, 2])), col.ShapeError, "bad_shape",
@@ -900,6 +905,20 @@ def test_refusals(call, kind, code, says):
     error = refusal(call)
     assert (type(error), error.code) == (kind, code)
     assert says in str(error)
+
+
+def test_what_cannot_be_read_is_refused_once():
+    """As it was given, and not as the NaN that stands for it."""
+    for call in (
+        lambda: Normal("10 mph", "1 mph", truncate=("0 mph", "20 m")),
+        lambda: Censored(low="10 mph", error="1 s"),
+    ):
+        assert "NaN" not in str(refusal(call))
+    error = refusal(lambda: Normal("10 mph", "1 mph", truncate=("0 s", "20 m")))
+    assert [one.fields["argument"] for one in error.fields["problems"]] == [
+        "truncate[0]",
+        "truncate[1]",
+    ]
 
 
 # What every input is

@@ -136,8 +136,8 @@ def test_without_a_side_it_is_what_it_was():
 
 
 def test_what_does_not_exist_is_not_given():
-    """Mean and deviation are NaN, there are no shares and no histogram; texts, tables, records and
-    pickles say the range.
+    """Mean, deviation and correlation are NaN, there are no shares and no histogram; texts, tables,
+    records and pickles say the range.
     """
     result = propagate(beyond(0.5, 1), UNIT, **OPTIONS)
     found = result["sided"]
@@ -159,7 +159,7 @@ def test_what_does_not_exist_is_not_given():
     assert "reconstruct.posterior with a prior for it has two sides" in statement
     again = pickle.loads(pickle.dumps(result))["sided"]
     assert again.interval() == found.interval()
-    assert math.isfinite(result.correlation["sided", "known"])
+    assert math.isnan(result.correlation["sided", "known"])
     for call in (
         lambda: found.histogram(),
         lambda: plot.distribution(found),

@@ -604,3 +604,21 @@ def test_the_error_of_a_standard_deviation_has_its_divisor():
         ]
         off = abs(found.std - math.sqrt(1.0 / 12.0))
         assert off <= 2.0 * found.std_standard_error < 2e-3 * found.std
+
+
+@pytest.mark.parametrize("method", ["quasi_random", "latin_hypercube"])
+@pytest.mark.parametrize(("share", "samples", "seed"), [(0.03, 1024, 2), (0.01, 8192, 2)])
+def test_the_error_of_a_mean_is_not_0_where_every_sequence_has_as_many_beyond_a_jump(
+    share, samples, seed, method
+):
+    """As with an answer that is another one where a contact slid: the mean is 8 times the share."""
+    limit = NormalDist().inv_cdf(1.0 - share)
+
+    def model(x, y):
+        return {"jump": np.where(x > limit, 8.0, 0.0), "and": 8.0 * (x > limit) + 0.3 * y}
+
+    inputs = {"x": Normal(0.0, 1.0), "y": Normal(0.0, 1.0)}
+    found = propagate(model, inputs, seed=seed, samples=samples, method=method)
+    for output in found.outputs.values():
+        assert abs(output.mean - 8.0 * share) < 4.0 * output.mean_standard_error
+        assert output.mean_standard_error > 3.0 / samples

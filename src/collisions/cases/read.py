@@ -11,7 +11,6 @@ from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from datetime import date, time
-from difflib import get_close_matches
 from functools import cache
 from inspect import Parameter, getdoc, signature
 from pathlib import Path
@@ -20,6 +19,7 @@ from typing import Any
 from .. import reconstruct, reference, travel, uncertainty
 from ..impact import solvers
 from ..messages.errors import CollisionsError, InputError, UnitsError
+from ..messages.hints import nearest
 from ..messages.marked import as_code
 from ..quantities.units import example, shown, to_quantity, unit_as_written
 from ..quantities.usual_units import Worked
@@ -393,7 +393,7 @@ def descriptions(function: Callable[..., Any]) -> dict[str, str]:
 def suggestion(given: str, names: Iterable[str]) -> str:
     """What to write in place of a name that is not known."""
     listed = list(names)
-    near = get_close_matches(given.lower(), listed, 1, 0.7)
+    near = nearest(given, listed, 1, 0.7)
     return f"did you mean {near[0]}?" if near else f"write one of {', '.join(listed)}"
 
 

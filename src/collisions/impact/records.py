@@ -7,7 +7,6 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Container, Iterator, Mapping, Sequence
 from dataclasses import fields
-from difflib import get_close_matches
 from typing import Any
 
 import numpy as np
@@ -15,6 +14,7 @@ import numpy as np
 from ..kernels.contact_laws import RULES
 from ..kernels.elementwise import UNCHECKED
 from ..messages.errors import InputError, Status
+from ..messages.hints import nearest
 from ..quantities.attributes import attributes, equal, missing_error, read_only, unit_of
 from ..quantities.directions import direction
 from ..quantities.formatting import KIND_OF, SI_UNITS
@@ -466,7 +466,7 @@ def _no_column(impact: Any, names: Sequence[Any]) -> InputError:
             text = f"columns: {name} has no value in this impact; leave it out"
             problem = missing_error(owner, inner) if isinstance(owner, VehicleResult) else None
             return problem or InputError(text, code="unknown_name", argument="columns")
-    near = get_close_matches(rendered(name), found, 3) or list(found)[:3]
+    near = nearest(rendered(name), found, 3, 0.6) or list(found)[:3]
     return InputError(
         f"columns: there is no column {shown(name)}; write for example "
         f"{', '.join(near)}, without a unit",

@@ -183,6 +183,13 @@ class Status(IntEnum):
         "input",
         "at this height of its centre of mass a vehicle could lift a wheel off the ground",
     )
+    TURNS_TOO_FAR = _Outcome(
+        33,
+        "solution",
+        "a body turns more than once while the contact lasts",
+        "a body turns more than once while the contact lasts, in which no point of it stays in "
+        "contact; check its yaw rate, duration and yaw inertia",
+    )
 
     @property
     def label(self) -> str:

@@ -3,8 +3,9 @@ and answered in SI.
 """
 
 from collections.abc import Callable, Sequence
-from functools import lru_cache
+from functools import lru_cache, reduce
 from math import nan, pi
+from operator import or_
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -167,7 +168,7 @@ def time_resolved(
     found |= _of_body(
         "b", start.units, b, start.moving[1], (engaged[1], met), (end[1], parted), given[1], 1.0
     )
-    status = _status(start, found, converged, end)
+    status = _status(start, found, converged, end, settings.geometry)
     if isinstance(note, Noted) and status <= Status.ENERGY_GAIN:
         found["history"] = _history(note, start)
     return Passed(status=status, **found)
@@ -308,7 +309,7 @@ def _of_body(
     return {f"{name}_{label}": value for name, value in found.items()}
 
 
-def _status(start: SetUp, found: dict[str, Any], converged: Any, end: Moving) -> Any:
+def _status(start: SetUp, found: dict[str, Any], converged: Any, end: Moving, geometry: str) -> Any:
     """How the contact went; of several reasons against it the first."""
     passing = end[2]
     # Of the pulse, the crush at the end; that of two bodies that part fast may overflow first.
@@ -319,6 +320,10 @@ def _status(start: SetUp, found: dict[str, Any], converged: Any, end: Moving) ->
     reach = sum(
         body.per_inertia * (body.rx * body.rx + body.ry * body.ry) for body in start.fixed[1:]
     )
+    # No point of a body that goes round stays in contact, and no steps that are fine enough for a
+    # contact follow it.
+    spins = [abs(motion.spin) for motion in (*start.moving[:2], *end[:2])]
+    round_once = geometry != "fixed" and reduce(or_, (spin > 2.0 * pi for spin in spins))
     loss = passing.work_n + passing.work_t
     absorbed = 0.5 * (start.fixed[0].stiffness * passing.deepest) * passing.deepest
     return first_status(
@@ -326,6 +331,7 @@ def _status(start: SetUp, found: dict[str, Any], converged: Any, end: Moving) ->
         (start.closing_speed < 0.0, Status.SEPARATING),
         (start.closing_speed == 0.0, Status.GRAZING),
         (reach - reach != 0.0, Status.OUT_OF_RANGE),
+        (round_once, Status.TURNS_TOO_FAR),
         (converged ^ True, Status.NO_START),
         (found["closing_speed"] <= 0.0, Status.SEPARATING),
         (finite ^ True, Status.OUT_OF_RANGE),

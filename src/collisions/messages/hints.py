@@ -1,5 +1,5 @@
-"""Hints for an argument that a function does not have: the TypeError names the one that is meant,
-or all that there are.
+"""Hints for a name that there is not, such as an argument that a function does not have: the
+TypeError names the one that is meant, or all that there are.
 """
 
 from __future__ import annotations
@@ -52,20 +52,34 @@ def no_argument(
     hints: Mapping[str, str] = MappingProxyType({}),
 ) -> TypeError:
     """The error for an argument that a function does not have, with the one that is meant."""
-    from difflib import get_close_matches
-
     known, given = list(names), next(iter(unknown))
-    stem, side = parted(given)
-    near = [name for name in known if given in _CALLED.get(name, "").split()]
+    # No argument has a capital: speed_A is speed_a, and not speed_b.
+    written = given.lower()
+    stem, side = parted(written)
+    near = [written] if written in known else []
+    near += [name for name in known if written in _CALLED.get(name, "").split()]
     # Without the letter of a vehicle: v_a is speed_a.
     near += [
         name
         for name in known
         if parted(name)[1] == side and stem in _CALLED.get(parted(name)[0], "").split()
     ]
-    near += get_close_matches(given, known, 1, 0.75)  # friction is not restitution
+    near += nearest(given, known, 1, 0.75)  # friction is not restitution
     hint = hints.get(given) or (f"write {near[0]}=" if near else f"it has {', '.join(known)}")
     return TypeError(f"{caller} has no argument {given!r}; {hint}")
+
+
+def nearest(given: str, known: Iterable[str], most: int, alike: float) -> list[str]:
+    """So many of the known names at most that are as much alike to a given one, from 0 to 1, upper
+    and lower case being the same; the nearest first.
+    """
+    from difflib import get_close_matches
+
+    spelled: dict[str, list[str]] = {}
+    for name in known:
+        spelled.setdefault(name.lower(), []).append(name)
+    found = get_close_matches(given.lower(), spelled, most, alike)
+    return [name for lower in found for name in spelled[lower]][:most]
 
 
 def parted(name: str) -> tuple[str, str]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from difflib import get_close_matches
 from typing import Any, Literal, NamedTuple, TypeAlias, get_args
 
 from ..derivation.evidence import momentum_inputs
@@ -17,6 +16,7 @@ from ..derivation.explain import (
 from ..impact.impact import Impact
 from ..kernels.elementwise import UNIT_INTERVAL
 from ..messages.errors import InputError
+from ..messages.hints import nearest
 from ..messages.marked import type_of
 from ..quantities.reading import ArgumentReader, need_one_case, single_number
 from ..quantities.units import shown
@@ -235,7 +235,7 @@ def _check_answers(
             known |= dict.fromkeys(names_of_answers(one))
     for name in answers:
         if name not in known:
-            near = get_close_matches(name, known, _MOST_NEAR, 0.5) or list(known)[:_MOST_NEAR]
+            near = nearest(name, known, _MOST_NEAR, 0.5) or list(known)[:_MOST_NEAR]
             refuse(
                 "answers",
                 f"answers has {shown(name)}, which nothing on this page is called; near it are "

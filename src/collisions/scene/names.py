@@ -7,13 +7,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from difflib import get_close_matches
 from typing import Any
 
 import numpy as np
 
 from ..impact.inputs import index_of, part_of
 from ..messages.errors import CollisionsError, InputError, placed
+from ..messages.hints import nearest
 from ..quantities.directions import direction
 from ..quantities.reading import ArgumentReader, at_least_zero
 from ..quantities.refusals import must_be
@@ -123,7 +123,7 @@ def no_path(path: Any, known: Iterable[str], argument: str, instead: str = "") -
     if not instead:
         listed = list(known)
         written = path if isinstance(path, str) else ""
-        near = get_close_matches(written, listed, _MOST_NEAR, 0.5) or listed[:_MOST_NEAR]
+        near = nearest(written, listed, _MOST_NEAR, 0.5) or listed[:_MOST_NEAR]
         instead = f"near it are {', '.join(near)}"
     return InputError(
         f"{argument} has no {rendered(path)}; {instead}", code="unknown_name", argument=argument

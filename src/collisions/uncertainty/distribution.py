@@ -359,17 +359,24 @@ def read_alike(
         name: reader.number(value, unit, name, UNCHECKED if name in optional else FINITE)
         for name, value in given.items()
     }
+    refused = {problem.fields.get("argument") for problem in reader.problems}
     for name, number in numbers.items():
-        if name in optional and isinstance(number, float) and not math.isfinite(number):
+        if (
+            name in optional
+            and name not in refused
+            and isinstance(number, float)
+            and not math.isfinite(number)
+        ):
             what = "is NaN" if math.isnan(number) else f"must be finite, got {shown(given[name])}"
-            reader.refuse(
-                InputError(
-                    f"{name} {what}; write `|None for an end that is open|-inf for a "
-                    "lower end that is open, inf for an upper one`",
-                    code="not_finite",
-                    argument=name,
+            instead = (
+                "leave it out for a sharp bound"
+                if name == "error"
+                else (
+                    "write `|None for an end that is open|-inf for a lower end that is open, inf "
+                    "for an upper one`"
                 )
             )
+            reader.refuse(InputError(f"{name} {what}; {instead}", code="not_finite", argument=name))
         if isinstance(number, np.ndarray) is not arrays and not reader.problems:
             what = (
                 "`|an array or a list|a list` of values"

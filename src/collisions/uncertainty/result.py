@@ -47,6 +47,9 @@ from .probability import Again, Condition, holds, holds_of_one
 
 COVERAGE = 0.95
 _OF_A_JUMP = 4.0  # times the standard error: twice as far as two errors should reach
+# Gaps between values that one is compared with, and how many times as wide a jump is: of values
+# that are spread by chance one in some million is.
+_NEXT_TO, _MANY_TIMES = 8, 15.0
 _MOST_BINS = 10000
 # Heads of figures that are none.
 _ONE_ANSWER = "in the one case that has an answer, so no spread is known"
@@ -554,17 +557,14 @@ class Sampled(Output):
     @derived(OWN_UNIT)
     def mean_standard_error(self) -> Any:
         """Standard error of the mean due to sampling; of a probability, at least one over the
-        number of cases.
+        number of cases, and beside a jump at least that of one case on its other side.
         """
-        error = self._error(average)
-        found = self._answered
-        seldom = (
-            found.size
-            and found[0] >= 0.0
-            and found[-1] <= 1.0
-            and not np.any((found > 0.0) & (found < 1.0))
-        )
-        return max(error, 1.0 / found.size) if seldom else error
+        error, found = self._error(average), self._answered
+        if np.isin(found, (0.0, 1.0)).all():
+            return max(error, 1.0 / found.size)
+        # Points that lie evenly can be as many on either side of a jump in every sequence, which
+        # then do not scatter by it.
+        return max(error, _jump(found / found.size))
 
     @derived(OWN_UNIT)
     def std_standard_error(self) -> Any:
@@ -743,6 +743,22 @@ class Sampled(Output):
         return [one + turn * np.rint((middle - np.nanmean(one)) / turn) for one in counted]
 
 
+def _jump(values: Any) -> float:
+    """The largest gap of sorted values that is many times as wide as those next to it on the side
+    where more values lie, and has as many sequences of cases on either side as are drawn: only then
+    can each have as many beyond it.
+    """
+    gaps = np.diff(values)
+    last = gaps.size + 1 - REPLICATES
+    place = np.arange(REPLICATES - 1, last, REPLICATES)
+    if not place.size:
+        return 0.0
+    sums = np.concatenate(([0.0], np.cumsum(gaps)))
+    begin = np.where(place < gaps.size // 2, place + 1, place - _NEXT_TO)
+    beside = (sums[begin + _NEXT_TO] - sums[begin]) / _NEXT_TO
+    return float(np.max(gaps[place], where=gaps[place] > _MANY_TIMES * beside, initial=0.0))
+
+
 def unanswered_notes(outputs: Mapping[str, Sampled]) -> Iterator[Note]:
     """That some cases have none of these outputs, whose figures are of the others."""
     for name, output in outputs.items():
@@ -875,7 +891,8 @@ class Propagation(Summarized):
 
     @property
     def correlation(self) -> dict[tuple[str, str], float]:
-        """Correlation of every pair of outputs, over the cases with an answer for both; only after
+        """Correlation of every pair of outputs, over the cases with an answer for both; NaN where
+        one of them does not vary, or is known from one side only in some of these. Only after
         sampling.
         """
         return correlations(
@@ -1082,17 +1099,19 @@ def varies(output: Output, kind: str = "") -> bool:
 
 def correlations(outputs: Mapping[str, Sampled]) -> dict[tuple[str, str], float]:
     """Correlation of every pair, over the cases with an answer for both; NaN where one of them does
-    not vary.
+    not vary, or is known from one side only in some of these.
     """
     found: dict[tuple[str, str], float] = {}
     for one, other in combinations(outputs, 2):
         columns = [outputs[name].values for name in (one, other)]
         both = ~np.isnan(columns[0]) & ~np.isnan(columns[1])
         pair = [values[both] / power_of_two(values[both]) for values in columns]
+        sides = (outputs[name]._sides for name in (one, other))
+        unknown = np.count_nonzero(both) < 2 or any(
+            one_sided is not None and np.any(one_sided[both]) for one_sided in sides
+        )
         with np.errstate(all="ignore"):
-            found[one, other] = (
-                float(np.corrcoef(*pair)[0, 1]) if np.count_nonzero(both) > 1 else math.nan
-            )
+            found[one, other] = math.nan if unknown else float(np.corrcoef(*pair)[0, 1])
     return found
 
 
