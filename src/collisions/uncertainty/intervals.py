@@ -29,6 +29,7 @@ from .result import COVERAGE, Output, Sampled, Shares
 
 COMMON_CASES = 16 * REPLICATES  # drawn cases, the same at every point
 _BLOCK = 2**16  # cases a call
+_VALLEYS = 4  # of the grid, from which an extreme is looked for
 _PATIENCE = 10  # steps for each halving, at most
 
 
@@ -81,9 +82,9 @@ def extremes(
     """Find where the outputs, or their figures over the ``common`` drawn cases, are least and
     greatest.
 
-    A grid finds where to look, then a shrinking box around the best place finds the extreme: exact
-    where there is a single one between the bounds or the figure is monotone, as those of solver
-    outputs are but for friction limits.
+    A grid finds where to look, then a shrinking box around each of its best places finds the
+    extreme: exact where the grid shows the few that there are between the bounds, or the figure is
+    monotone, as those of solver outputs are but for friction limits.
     """
     effort = _MIXED if common else _ONLY_INTERVALS
     if len(bounds) > effort.intervals:
@@ -235,15 +236,50 @@ def _in_lockstep(places: _GridPoints, searches: Sequence[_Search]) -> list[tuple
 def _steps_to(
     grid: Any, judged: Any, sign: float, effort: _Effort
 ) -> Generator[Any, Any, tuple[Any, float]]:
-    """The steps from the best of the grid to the least figure, or the greatest for a sign of -1.
-
-    Each step asks for the figures at the points around the best one; the end is that point and its
-    figure.
+    """The steps from the best places of the grid to the least figure, or the greatest for a sign of
+    -1; the end is the best point of all and its figure.
     """
-    best = int(np.nanargmin(sign * judged))
-    place, value = grid[best], sign * float(judged[best])
-    size, smallest = 0.5, 0.5**effort.halvings
-    steps = _steps(grid.shape[1], effort)
+    count = grid.shape[1]
+    along = round(len(grid) ** (1.0 / count))
+    # About as wide as the grid, so as not to leap from one valley into another.
+    size = 0.5 ** max(1, int(math.log2(along - 1)))
+    ends = []
+    for start in _starts(sign * judged, (along,) * count):
+        found = yield from _steps_from(grid[start], float(judged[start]), sign, size, effort)
+        ends.append(found)
+    return min(ends, key=lambda end: sign * end[1])
+
+
+def _starts(judged: Any, shape: tuple[int, ...]) -> list[int]:
+    """The best place of the grid, and the next best of those that none beside them is better than:
+    the extreme may lie beside any of them.
+    """
+    count = len(shape)
+    found = np.where(np.isnan(judged), math.inf, judged)
+    padded = np.pad(found.reshape(shape), 1, constant_values=math.inf)
+    least, falls = np.ones(shape, dtype=bool), np.zeros(shape, dtype=bool)
+    inner = (slice(1, -1),) * count
+    for axis in range(count):
+        for by in (-1, 1):
+            beside = np.roll(padded, by, axis)[inner]
+            least &= found.reshape(shape) <= beside
+            falls |= (found.reshape(shape) < beside) & np.isfinite(beside)
+    best = int(np.argmin(found))
+    valleys = np.flatnonzero((least & falls).ravel() & np.isfinite(found))
+    others = [int(one) for one in valleys[np.argsort(found[valleys], kind="stable")] if one != best]
+    return [best, *others[: _VALLEYS - 1]]
+
+
+def _steps_from(
+    place: Any, judged: float, sign: float, size: float, effort: _Effort
+) -> Generator[Any, Any, tuple[Any, float]]:
+    """The steps from one place to the least or the greatest figure near it.
+
+    Each step asks for the figures at the points around the best one, at first so far from it; the
+    end is that point and its figure.
+    """
+    value, smallest = sign * judged, 0.5**effort.halvings
+    steps = _steps(len(place), effort)
     for _ in range(_PATIENCE * effort.halvings):
         around = np.clip(place + size * steps, 0.0, 1.0)
         beside = sign * (yield around)
