@@ -1588,6 +1588,23 @@ def test_results_of_a_record_are_all_there_and_no_others(change, said):
     assert caught.value.code == "bad_record"
 
 
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ('"mass": ', '"mass": "2200 kg", "mass": ', "it has 'mass' twice"),
+        ('"delta_v": ', '"delta_v": 1.0, "delta_v": ', "it has 'delta_v' twice"),
+        ('"impact": ', '"statements": ["All is well."], "impact": ', "it has statements, which no"),
+        ('"inputs": ', '"checked": true, "inputs": ', "it has impact.checked, which no record of"),
+    ],
+)
+def test_a_record_has_no_name_twice_and_none_that_nothing_reads(old, new, said):
+    """A reader of the page sees them, and other readers of JSON take the first of two."""
+    page = report(crash(), form="markdown")
+    with pytest.raises(col.InputError, match=re.escape(said)) as caught:
+        replay(page.replace(old, new, 1))
+    assert caught.value.code == "bad_record"
+
+
 def test_the_reason_of_a_choice_may_be_worded_otherwise_by_another_version(impacts):
     """Its numbers may not."""
     impact = impacts["solve, linear"]

@@ -13,7 +13,7 @@ from dataclasses import fields
 from functools import partial
 from html import unescape
 from itertools import chain
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, TypeVar
 
 from ..diagnostics import LIMITS
 from ..impact.impact import Impact, with_vehicles
@@ -39,6 +39,7 @@ from ..vehicle.vehicle import DOMAINS, Vehicle, with_given
 from .render import FENCE, RECORD
 from .sections import EVIDENCE, contradicted
 
+T = TypeVar("T", bound="Impact | MomentumSolution | Run")
 Result: TypeAlias = Impact | MomentumSolution | Fit | Posterior | Run
 REPORT_FORMAT = "collisions report 2"
 # The options that change the page, with the unit in which each is read; None for one that is not a
@@ -74,6 +75,8 @@ _READ_AGAIN = 2e-9
 # Results of another machine may differ by its rounding, relative or in SI; a page does not show
 # that many digits.
 _OTHER_MACHINE = 1e-6
+# What a record has of the page, beside its results.
+_OF_PAGE = ("format", "version", "options")
 # Sentences.
 _SENTENCES = ("choice.reason", "].sentence")
 
@@ -233,19 +236,43 @@ def replay(text: str) -> Impact | MomentumSolution | Run | list[Impact | Momentu
     from .. import __version__
 
     found = _whole(text)
-    # Another version may word a sentence differently.
-    as_worded = found.get("version") == __version__
+    # Another version may word a sentence differently, and have other names.
+    as_here = found.get("version") == __version__
+    part = {name: one for name, one in found.items() if name not in _OF_PAGE}
     if "run" in found:
-        return _run(found["run"], as_worded)
+        return _with_known_names(_run(found["run"], as_here), part, as_here)
     if "results" not in found:
-        return _replayed(found, as_worded)
-    parts = found["results"]
-    if not isinstance(parts, list) or not all(isinstance(part, Mapping) for part in parts):
-        raise _bad("its results are no list of records")
-    return [_replayed(part, as_worded) for part in parts]
+        return _with_known_names(_replayed(part, as_here), part, as_here)
+    parts = part.pop("results")
+    if part or not isinstance(parts, list) or not all(isinstance(one, Mapping) for one in parts):
+        raise _bad("its results are no list of records, or it has others beside them")
+    return [_with_known_names(_replayed(one, as_here), one, as_here) for one in parts]
 
 
-def _replayed(found: Mapping[str, Any], as_worded: bool) -> Impact | MomentumSolution:
+def _with_known_names(result: T, part: Mapping[str, Any], as_here: bool) -> T:
+    """The result of a part of a record, refused if that has what nothing reads."""
+    if as_here:
+        again = {"uncertainty": part.get("uncertainty"), **_one_record(result, None)}
+        if unknown := next(_unknown(part, again, ""), None):
+            raise _bad(f"it has {unknown}, which no record of such a result has")
+    return result
+
+
+def _unknown(recorded: Any, found: Any, name: str) -> Iterator[str]:
+    """The names that only the record has."""
+    if isinstance(recorded, Mapping) and isinstance(found, Mapping):
+        for key, part in recorded.items():
+            path = f"{name}.{key}" if name else str(key)
+            if key not in found:
+                yield path
+            else:
+                yield from _unknown(part, found[key], path)
+    elif isinstance(recorded, list) and isinstance(found, (list, tuple)):
+        for i, (one, other) in enumerate(zip(recorded, found, strict=False)):
+            yield from _unknown(one, other, f"{name}[{i}]")
+
+
+def _replayed(found: Mapping[str, Any], as_here: bool) -> Impact | MomentumSolution:
     """One result solved again from its part of the record."""
     if kind := next((kind for kind in ("fit", "posterior") if kind in found), ""):
         raise InputError(
@@ -263,7 +290,7 @@ def _replayed(found: Mapping[str, Any], as_worded: bool) -> Impact | MomentumSol
         impact = Impact.from_dict(found["impact"])
     except CollisionsError as error:
         raise _bad(str(error)) from error
-    _check(found["impact"]["results"], impact.to_dict()["results"], as_worded)
+    _check(found["impact"]["results"], impact.to_dict()["results"], as_here)
     for contradiction in chain(contradicted(impact), contradicted_origin(impact)):
         raise _bad(contradiction)
     texts = found.get("other_texts")
@@ -276,7 +303,7 @@ def _replayed(found: Mapping[str, Any], as_worded: bool) -> Impact | MomentumSol
     return with_vehicles(impact, a, b)
 
 
-def _run(whole: Any, as_worded: bool) -> Run:
+def _run(whole: Any, as_here: bool) -> Run:
     """A scene run again from a record."""
     try:
         run = Run.from_dict(whole)
@@ -287,7 +314,7 @@ def _run(whole: Any, as_worded: bool) -> Run:
         {name: part for name, part in record.items() if name != "scene"}
         for record in (whole, json.loads(json.dumps(run.to_dict())))
     )
-    _check(recorded, found, as_worded)
+    _check(recorded, found, as_here)
     return run
 
 
@@ -415,11 +442,23 @@ def _whole(text: Any) -> Mapping[str, Any]:
             argument="text",
         )
     try:
-        found = json.loads(inside)
+        found = json.loads(inside, object_pairs_hook=_once)
+    except InputError:
+        raise
     except (ValueError, RecursionError) as error:
         raise _bad(f"it is no JSON ({error})") from error
     if not isinstance(found, Mapping) or found.get("format") != REPORT_FORMAT:
         raise _bad(f"it is not of the format {REPORT_FORMAT!r}")
+    return found
+
+
+def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """A dict of JSON in which no name stands twice, as other readers may take the first."""
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        names = [name for name, _ in pairs]
+        twice = next(name for name in names if names.count(name) > 1)
+        raise _bad(f"it has {shown(twice)} twice")
     return found
 
 

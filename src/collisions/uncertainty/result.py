@@ -268,7 +268,8 @@ class Output(Summarized):
     @property
     def contributions(self) -> dict[str, float]:
         """Share of the variance due to each input alone, largest first; the rest, up to 1, is
-        interaction, and with ``finer=`` what its correction does not foresee (``scatter``).
+        interaction, and with ``finer=`` what its correction does not foresee (``scatter``). Cases
+        without an answer are left out, also where only the input drawn again has none.
         """
         return _ranked(self._shares().first)
 
@@ -694,6 +695,10 @@ class Sampled(Output):
         found = np.sort(self.values[~np.isnan(self.values)])
         return found if found.size else np.array([np.nan])
 
+    def _unseen(self) -> float:
+        """How large a share of all cases may lie between those that there are."""
+        return float(0.5 / self._answered.size)
+
     def _quantile_error(self, share: float) -> float:
         found = self._answered
         if not 0.0 < share < 1.0 or found.size < 2:
@@ -701,7 +706,7 @@ class Sampled(Output):
         at = float(_quantiles(found, share))
         # The shares of points that lie evenly can all be the same, and the quantile still lies
         # anywhere between two of them.
-        error = math.hypot(self._error(lambda values: np.mean(values <= at)), 0.5 / found.size)
+        error = math.hypot(self._error(lambda values: np.mean(values <= at)), self._unseen())
         width = max(error, math.sqrt(share * (1.0 - share) / found.size))
         low, high = max(0.0, share - width), min(1.0, share + width)
         ends = _quantiles(found, (low, high))
