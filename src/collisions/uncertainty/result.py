@@ -48,7 +48,7 @@ from .probability import Again, Condition, holds, holds_of_one
 COVERAGE = 0.95
 _OF_A_JUMP = 4.0  # times the standard error: twice as far as two errors should reach
 # Gaps between values that one is compared with, and how many times as wide a jump is: of values
-# that are spread by chance one in some million is.
+# that are spread by chance one in five thousand is, and such a gap is little beside their scatter.
 _NEXT_TO, _MANY_TIMES = 8, 15.0
 _MOST_BINS = 10000
 # Heads of figures that are none.
