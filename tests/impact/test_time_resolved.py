@@ -1164,15 +1164,34 @@ def test_a_body_on_a_pivot_is_an_infinite_mass_there():
     assert found.b.delta_yaw_rate == pytest.approx(wanted.b.delta_yaw_rate, rel=5e-5)
 
 
-def test_a_body_that_goes_round_while_the_contact_lasts_is_refused():
-    """Where nothing moves the number of turns does not matter."""
-    for rate in (70.0, 5e3, 1e20):
+def test_steps_within_which_a_body_turns_too_far_are_refused():
+    """Below, the answer is within some percent of that of ten times the steps. Where nothing moves
+    the turn does not matter, nor does the yaw rate after.
+    """
+    for rate, steps, refused in ((260, 100, True), (240, 100, False), (260, 1000, False),
+                                 (40, 12, True), (25, 12, False), (1e20, 100, True)):  # fmt: skip
         spinning = {"b": col.Vehicle(**B | {"yaw_rate": f"{rate} rad/s"})}
+        contact = spinning | {"duration": 0.1, "steps": steps}
         for geometry in ("first_contact", "maximum_engagement"):
-            with pytest.raises(col.NoSolutionError, match="turns more than once") as caught:
-                t_bone(0.2, **spinning, duration=0.1, geometry=geometry)
-            assert caught.value.code == "turns_too_far"
-        assert t_bone(0.2, **spinning, duration=0.1, geometry="fixed", drag=0.0).energy_loss > 0.0
+            if refused:
+                with pytest.raises(col.NoSolutionError, match="give more steps=") as caught:
+                    t_bone(0.2, **contact, geometry=geometry)
+                assert caught.value.code == "coarse_steps"
+        if not refused:
+            found = t_bone(0.2, **contact, geometry="first_contact")
+            finer = t_bone(0.2, **contact | {"steps": 10 * steps}, geometry="first_contact")
+            assert found.a.delta_v == pytest.approx(finer.a.delta_v, rel=0.03)
+        assert t_bone(0.2, **contact, geometry="fixed", drag=0.0).energy_loss > 0.0
+    light = {
+        "mass": 174.6, "vy": 5.3, "yaw_rate": -4.55, "yaw_inertia": 1.036, "x": 0.253, "y": 0.0,
+        "heading": math.pi / 2,
+    }  # fmt: skip
+    a = col.Vehicle(**A | {"vx": 14.84, "vy": -2.34, "yaw_rate": -1.57, "x": -2.0, "y": 0.39})
+    contact = {"friction": 0.355, "duration": 0.1586, "drag": 0.0, "geometry": "first_contact"}
+    found = t_bone(0.24, a, col.Vehicle(**light), **contact)
+    assert abs(found.b.after.yaw_rate) > 50.0
+    finer = t_bone(0.24, a, col.Vehicle(**light), **contact, steps=1000)
+    assert found.a.delta_v == pytest.approx(finer.a.delta_v, rel=2e-3)
 
 
 def test_refused_contacts():
@@ -1184,7 +1203,7 @@ def test_refused_contacts():
         t_bone(0.3, **slow, duration=0.3, geometry="first_contact")
     assert caught.value.code == "endless_contact"
     spinning = {
-        "a": col.Vehicle(**A | {"vx": 3.0, "yaw_rate": 12.0}),
+        "a": col.Vehicle(**A | {"vx": 3.0, "yaw_rate": 15.0}),
         "b": col.Vehicle(**B | {"vy": 0.0}),
     }
     with pytest.raises(col.NoSolutionError, match="geometry='first_contact'") as caught:

@@ -270,6 +270,30 @@ def test_an_argument_in_capitals_is_the_one_that_is_meant(name):
                 function(**{written: 1.0})
 
 
+@pytest.mark.parametrize(
+    ("written", "cure"),
+    [
+        ("speed_after_a", "write speed_a_after="),
+        ("speedA", "write speed_a="),
+        ("a_course", "write course_a="),
+        ("mass_1", "write mass_a="),
+        ("heading2", "write heading_b="),
+        ("yaw_rate_after_A", "write yaw_rate_a_after="),
+        # What says no vehicle is none that is picked.
+        ("mass_c", "write mass_a= or mass_b="),
+        ("course_afterb", "write course_a_after= or course_b_after="),
+    ],
+)
+def test_a_hint_never_names_the_other_vehicle(written, cure):
+    with pytest.raises(TypeError, match=rf"'{written}'; {cure}$"):
+        reconstruct.momentum(1500.0, 1200.0, **{written: 1.0})
+
+
+def test_a_hint_at_what_points_the_other_way_says_so():
+    with pytest.raises(TypeError, match=r"write delta_v_left_a=, with the other sign$"):
+        reconstruct.speeds(A, B, delta_v_right_a=1.0)
+
+
 @pytest.mark.parametrize("name", PUBLIC)
 def test_every_public_function_says_what_arguments_it_has(name):
     names = list(inspect.signature(PUBLIC[name]).parameters)

@@ -967,6 +967,18 @@ def test_a_unit_of_another_registry_is_kept_as_it_was_written():
     assert report(replay(page), form="markdown") == page
 
 
+def test_a_record_can_be_read_where_the_unit_of_another_registry_is_known(monkeypatch):
+    registry = pint.UnitRegistry()
+    registry.define("slugfest = 14.6 kg")
+    mass = registry.Quantity(100.0, "slugfest")
+    impact = col.linear_central(golf(mass=mass), col.Vehicle(mass=900), 0.1)
+    page = report(impact, form="markdown")
+    known = pint.UnitRegistry()
+    known.define("slugfest = 14.6 kg")
+    monkeypatch.setattr(pint.application_registry, "_registry", known)
+    assert replay(page) == impact
+
+
 # Inputs stand on the page as they were given.
 
 

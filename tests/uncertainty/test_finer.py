@@ -490,7 +490,14 @@ def test_what_the_cases_asked_cannot_show_is_said():
     share, error = near["o"].probability(lambda values: values > 6.0)
     assert share == 0.0
     assert error == pytest.approx(1.0 / 512.0, rel=0.01)
-    # Of what holds in samples, not of a condition that can be asked again.
+    # Of a yes or no that both models answer in the same way, too.
+    seldom = propagate(
+        lambda x: {"p": x > 9.0},
+        {"x": Normal(0.0, 1.0)},
+        finer=lambda x: {"p": x > 9.0},
+        seed=1,
+    )
+    assert seldom["p"].mean_standard_error == pytest.approx(1.0 / 512.0)
     _, error = near.probability(lambda of: of["o"] > 6.0)
     assert error == pytest.approx(1.0 / 512.0, rel=0.01)
 

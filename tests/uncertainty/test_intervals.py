@@ -566,3 +566,33 @@ def test_a_local_method_is_not_random():
     )
     assert one.seed is None
     assert all(other.to_dict() == one.to_dict() for other in others)
+
+
+@pytest.mark.parametrize("beside", [False, True])
+@pytest.mark.parametrize("periods", [1.3, 2.1, 2.9])
+def test_smooth_extremes_of_several_valleys_are_found(periods, beside):
+    """Some of them as good on the grid as others, against twenty thousand places."""
+    for turn in np.linspace(0.0, 6.0, 13):
+
+        def wave(i, turn=turn):
+            return np.sin(2.0 * math.pi * periods * i + turn) + 0.1 * i
+
+        at = wave(np.linspace(0.0, 1.0, 20001))
+        if beside:
+            inputs = {"i": Interval(0.0, 1.0), "x": Normal(0.0, 1.0)}
+            found = propagate(lambda i, x: {"o": wave(i) + 0.0 * x}, inputs, seed=1, samples=64)
+        else:
+            found = propagate(
+                lambda i: {"o": wave(i)}, {"i": Interval(0.0, 1.0)}, method="interval"
+            )
+        assert found["o"].mean == pytest.approx((at.min(), at.max()), abs=1e-6)
+
+
+def test_as_many_intervals_as_there_may_be_take_no_long_while():
+    """Every one doubles the corners, and what is compared with its neighbours is no more than they
+    are.
+    """
+    inputs = {f"x{k}": Interval(0.0, 1.0) for k in range(14)}
+    found = propagate(lambda **of: {"o": sum(of.values())}, inputs, method="interval")
+    assert found["o"].mean == (0.0, 14.0)
+    assert found.samples < 30_000

@@ -246,7 +246,8 @@ def _with_time(inputs: Inputs, choice: ModelChoice, lacks: Any) -> tuple[ModelCh
         errors = tuple(_apart(inputs, answer, rough) for answer in answers)
         # Followed roughly it may have no answer where in more steps it has one; then nothing is
         # known of the others.
-        unsure = (rough.status == Status.NO_START) | (rough.status == Status.ENDLESS_CONTACT)
+        steps = (rough.status == Status.NO_START) | (rough.status == Status.COARSE_STEPS)
+        unsure = steps | (rough.status == Status.ENDLESS_CONTACT)
         answered = ((rough.status <= Status.ENERGY_GAIN) | unsure) & (lacks ^ True)
         tolerance: Any = inputs.tolerance
         which: Any = _LAST

@@ -301,9 +301,10 @@ def eccentric(
         The wheels of each vehicle, which then needs a ``heading``. Their mean force is worked out
         from the motion without them, before, half-way through and after the contact (Simpson's
         rule); times the duration it acts as an impulse from outside, ``impact.a.tyre_impulse_x``,
-        and the impact is solved once more. On the mean a wheel has no more than would stop a
-        quarter of the vehicle's mass from the faster of its motions before and after. Where tyres
-        could stop a vehicle, or its turning, within the contact, their impulse is rough, and
+        and the impact is solved once more. At each of these moments a wheel has no more than would
+        stop it, as it moves then along its force, with a quarter of the vehicle's mass: once where
+        the vehicle moves after as before, up to twice where the contact sets it in motion. Where
+        tyres could stop a vehicle, or its turning, within the contact, their impulse is rough, and
         ``diagnose`` says so (``tyres_stop``). This costs two calls; the motion during the contact,
         which ``time_resolved`` has too, is left out.
     incomplete, on_failure, threads, progress

@@ -183,12 +183,12 @@ class Status(IntEnum):
         "input",
         "at this height of its centre of mass a vehicle could lift a wheel off the ground",
     )
-    TURNS_TOO_FAR = _Outcome(
+    COARSE_STEPS = _Outcome(
         33,
         "solution",
-        "a body turns more than once while the contact lasts",
-        "a body turns more than once while the contact lasts, in which no point of it stays in "
-        "contact; check its yaw rate, duration and yaw inertia",
+        "a body turns by more than 0.25 rad within a time step",
+        "a body turns by more than 0.25 rad within a time step, at its yaw rate before; give more "
+        "`steps=`, or check yaw rate and duration",
     )
 
     @property

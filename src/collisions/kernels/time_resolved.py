@@ -3,9 +3,8 @@ and answered in SI.
 """
 
 from collections.abc import Callable, Sequence
-from functools import lru_cache, reduce
+from functools import lru_cache
 from math import nan, pi
-from operator import or_
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -46,6 +45,8 @@ _DIFFERENCE, _NOT_FAR, _DIFFERENCES, _BLUR = 0.1, 20.0, 8, 0.1
 _MOST_FRICTION = 1e150
 # Rounding of a sum over the steps of a contact, as a share.
 _ROUNDED = 1e-12
+# Radians by which a body may turn within a step: above, answers are off by more than a percent.
+_MOST_TURNED = 0.25
 # So few cases are followed one by one.
 _LEAST = 32
 _FOUR: Wheels = ((1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0))
@@ -320,10 +321,7 @@ def _status(start: SetUp, found: dict[str, Any], converged: Any, end: Moving, ge
     reach = sum(
         body.per_inertia * (body.rx * body.rx + body.ry * body.ry) for body in start.fixed[1:]
     )
-    # No point of a body that goes round stays in contact, and no steps that are fine enough for a
-    # contact follow it.
-    spins = [abs(motion.spin) for motion in (*start.moving[:2], *end[:2])]
-    round_once = geometry != "fixed" and reduce(or_, (spin > 2.0 * pi for spin in spins))
+    turns = [abs(motion.spin) * start.fixed[0].step > _MOST_TURNED for motion in start.moving[:2]]
     loss = passing.work_n + passing.work_t
     absorbed = 0.5 * (start.fixed[0].stiffness * passing.deepest) * passing.deepest
     return first_status(
@@ -331,7 +329,7 @@ def _status(start: SetUp, found: dict[str, Any], converged: Any, end: Moving, ge
         (start.closing_speed < 0.0, Status.SEPARATING),
         (start.closing_speed == 0.0, Status.GRAZING),
         (reach - reach != 0.0, Status.OUT_OF_RANGE),
-        (round_once, Status.TURNS_TOO_FAR),
+        (geometry != "fixed" and turns[0] | turns[1], Status.COARSE_STEPS),
         (converged ^ True, Status.NO_START),
         (found["closing_speed"] <= 0.0, Status.SEPARATING),
         (finite ^ True, Status.OUT_OF_RANGE),

@@ -4,6 +4,7 @@ TypeError names the one that is meant, or all that there are.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Mapping
 from functools import wraps
 from inspect import CO_VARKEYWORDS, Parameter, signature
@@ -45,6 +46,12 @@ _CALLED = {
 }
 
 
+# The letter, or the number, of a vehicle in the name of an argument: speed_a_after, va_after.
+_VEHICLE = r"(?:(?<=_)|(?<=^)|(?<=^v)|(?<=\D)(?=\d))[ab12](?=_|$)"
+# What points the other way.
+_OPPOSITE = {"right": "left", "back": "forward", "rear": "forward"}
+
+
 def no_argument(
     caller: str,
     names: Iterable[str],
@@ -53,9 +60,10 @@ def no_argument(
 ) -> TypeError:
     """The error for an argument that a function does not have, with the one that is meant."""
     known, given = list(names), next(iter(unknown))
-    # No argument has a capital: speed_A is speed_a, and not speed_b.
-    written = given.lower()
+    # No argument has a capital: speed_A and speedA are speed_a.
+    written = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", given).lower()
     stem, side = parted(written)
+    vehicle = _vehicle_of(written)
     near = [written] if written in known else []
     near += [name for name in known if written in _CALLED.get(name, "").split()]
     # Without the letter of a vehicle: v_a is speed_a.
@@ -64,9 +72,34 @@ def no_argument(
         for name in known
         if parted(name)[1] == side and stem in _CALLED.get(parted(name)[0], "").split()
     ]
-    near += nearest(given, known, 1, 0.75)  # friction is not restitution
-    hint = hints.get(given) or (f"write {near[0]}=" if near else f"it has {', '.join(known)}")
+    # What plainly says one vehicle is no argument of the other.
+    of_it = [name for name in known if not vehicle or _vehicle_of(name) in ("", vehicle)]
+    near += nearest(written, of_it, 1, 0.75)  # friction is not restitution
+    hint = hints.get(given) or (
+        _to_write(near[0], written, known) if near else f"it has {', '.join(known)}"
+    )
     return TypeError(f"{caller} has no argument {given!r}; {hint}")
+
+
+def _to_write(name: str, written: str, known: Iterable[str]) -> str:
+    """What to write in place of a name: of both vehicles where it says neither."""
+    meant = [name]
+    if _vehicle_of(name) and not _vehicle_of(written):
+        of_both = re.sub(_VEHICLE, "[ab]", name)
+        meant = [one for one in known if re.fullmatch(of_both, one)]
+    turned = any(
+        way in written and to in name and to not in written for way, to in _OPPOSITE.items()
+    )
+    sign = ", with the other sign" if turned else ""
+    return f"write {' or '.join(f'{one}=' for one in meant)}{sign}"
+
+
+def _vehicle_of(name: str) -> str:
+    """The letter of the vehicle that an argument is of, also of the first and second; "" if it says
+    none, or both.
+    """
+    found = {{"1": "a", "2": "b"}.get(one, one) for one in re.findall(_VEHICLE, name)}
+    return found.pop() if len(found) == 1 else ""
 
 
 def nearest(given: str, known: Iterable[str], most: int, alike: float) -> list[str]:

@@ -77,6 +77,8 @@ _READ_AGAIN = 2e-9
 _OTHER_MACHINE = 1e-6
 # What a record has of the page, beside its results.
 _OF_PAGE = ("format", "version", "options")
+_OF_UNCERTAINTY = ("method", "samples", "seed")
+_NO_OPTIONS = "its options are none that report takes"
 # Sentences.
 _SENTENCES = ("choice.reason", "].sentence")
 
@@ -105,9 +107,7 @@ def record_of_all(
 def _one_record(impact: Result, uncertainty: Propagation | None) -> dict[str, Any]:
     whole: dict[str, Any] = {}
     if uncertainty is not None:
-        whole["uncertainty"] = {
-            name: getattr(uncertainty, name) for name in ("method", "samples", "seed")
-        }
+        whole["uncertainty"] = {name: getattr(uncertainty, name) for name in _OF_UNCERTAINTY}
     if isinstance(impact, Impact):
         whole["impact"] = impact.to_dict()
         inputs = whole["impact"]["inputs"]
@@ -236,8 +236,13 @@ def replay(text: str) -> Impact | MomentumSolution | Run | list[Impact | Momentu
     from .. import __version__
 
     found = _whole(text)
+    if not isinstance(version := found.get("version"), str):
+        raise _bad(f"its version is {rendered(version)}")
     # Another version may word a sentence differently, and have other names.
-    as_here = found.get("version") == __version__
+    as_here = version == __version__
+    asked = found.get("options")
+    if as_here and not (isinstance(asked, Mapping) and asked.keys() <= _UNITS.keys()):
+        raise _bad(_NO_OPTIONS)
     part = {name: one for name, one in found.items() if name not in _OF_PAGE}
     if "run" in found:
         return _with_known_names(_run(found["run"], as_here), part, as_here)
@@ -252,7 +257,12 @@ def replay(text: str) -> Impact | MomentumSolution | Run | list[Impact | Momentu
 def _with_known_names(result: T, part: Mapping[str, Any], as_here: bool) -> T:
     """The result of a part of a record, refused if that has what nothing reads."""
     if as_here:
-        again = {"uncertainty": part.get("uncertainty"), **_one_record(result, None)}
+        # What else a vehicle was given as is read here where the session knows the unit.
+        again = _one_record(result, None) | {"other_texts": part.get("other_texts")}
+        if "uncertainty" in part:
+            again["uncertainty"] = dict.fromkeys(_OF_UNCERTAINTY)
+            if not isinstance(part["uncertainty"], Mapping):
+                raise _bad("its uncertainty has no method, samples and seed")
         if unknown := next(_unknown(part, again, ""), None):
             raise _bad(f"it has {unknown}, which no record of such a result has")
     return result
@@ -329,7 +339,7 @@ def _momentum(whole: Any) -> MomentumSolution:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", CollisionsWarning)  # given when it was solved
             solution = momentum(**(inputs | pairs), on_failure="nan")
-    except (CollisionsError, LookupError, TypeError, ValueError) as error:
+    except (CollisionsError, AttributeError, LookupError, TypeError, ValueError) as error:
         raise _bad(str(error)) from error
     _check(results, json.loads(json.dumps(_results(solution))))
     return solution
@@ -410,7 +420,7 @@ def options(text: str) -> dict[str, Any]:
     except (AttributeError, TypeError, ValueError):
         known = False
     if not known:
-        raise _bad("its options are none that report takes")
+        raise _bad(_NO_OPTIONS)
     return found
 
 
@@ -454,11 +464,11 @@ def _whole(text: Any) -> Mapping[str, Any]:
 
 def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     """A dict of JSON in which no name stands twice, as other readers may take the first."""
-    found = dict(pairs)
-    if len(found) < len(pairs):
-        names = [name for name, _ in pairs]
-        twice = next(name for name in names if names.count(name) > 1)
-        raise _bad(f"it has {shown(twice)} twice")
+    found: dict[str, Any] = {}
+    for name, value in pairs:
+        if name in found:
+            raise _bad(f"it has {shown(name)} twice")
+        found[name] = value
     return found
 
 

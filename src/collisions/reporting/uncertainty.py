@@ -103,7 +103,7 @@ class Spread:
                 "errors, the rest comes from interactions"
                 + (
                     ", and from what the correction does not foresee."
-                    if uncertainty.scatter
+                    if any(uncertainty.scatter.values())
                     else "."
                 )
             )

@@ -172,18 +172,18 @@ class CorrectedOutput(Sampled):
         turn = 2.0 * math.pi
         return found - turn * np.rint((found - self._mean()) / turn)
 
-    def _unseen(self) -> float:
+    def _one_case(self) -> float:
         """The share of one case among those asked: they do not show what the finer model alone does
         more seldom.
         """
         asked = len(self._asked.places)
-        return 1.0 / asked if asked else super()._unseen()
+        return 1.0 / asked if asked else super()._one_case()
 
     def _share(self, held: Any, again: Again | None = None) -> tuple[float, float]:
         share, drawn = super()._share(held, again)
         places = self._asked.places
         if not len(places) or again is None:
-            return share, max(drawn, self._unseen())
+            return share, max(drawn, self._one_case())
 
         def without(one: Any, k: int) -> Any:
             """All samples as corrected without a fold of the cases asked."""
@@ -203,7 +203,7 @@ class CorrectedOutput(Sampled):
         apart = held[places] - np.mean(stands, axis=0)
         apart = apart[~np.isnan(apart)]
         missed = math.hypot(float(np.mean(apart)), float(np.std(apart)) / math.sqrt(apart.size))
-        return share, math.hypot(drawn, max(learnt, missed, self._unseen()))
+        return share, math.hypot(drawn, max(learnt, missed, self._one_case()))
 
 
 class Corrected(NamedTuple):

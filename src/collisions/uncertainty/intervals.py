@@ -110,14 +110,23 @@ def extremes(
             judged = _per_point(figure, values)
             if not np.isnan(judged).all():
                 searches += (
-                    _Search(name, figure, _steps_to(grid, judged, sign, effort))
+                    _Search(
+                        name, figure, sign, _steps_from(grid, at, float(judged[at]), sign, effort)
+                    )
                     for sign in (1.0, -1.0)
+                    for at in _starts(sign * judged, len(bounds))
                 )
-    ends = _in_lockstep(places, searches)
+    # The best of those that look for the same.
+    ends: dict[tuple[str, Any, float], tuple[Any, float]] = {}
+    for search, end in zip(searches, _in_lockstep(places, searches), strict=True):
+        sought = search.output, search.figure, search.sign
+        if sought not in ends or search.sign * end[1] < search.sign * ends[sought][1]:
+            ends[sought] = end
     found: dict[str, tuple[float, float]] = {}
-    for search, (_, least), (_, most) in zip(searches[::2], ends[::2], ends[1::2], strict=True):
-        found.setdefault(search.output, (least, most))
-    spots = [place for place, _ in ends]
+    for (name, figure, sign), (_, least) in ends.items():
+        if sign > 0.0:
+            found.setdefault(name, (least, ends[name, figure, -1.0][1]))
+    spots = [place for place, _ in ends.values()]
     unique = np.unique(np.round(spots, 12), axis=0)
     listed = [dict(zip(bounds, map(float, places.at(spot)), strict=True)) for spot in unique]
     jumps = {
@@ -188,12 +197,13 @@ class _GridPoints:
 
 
 class _Search(NamedTuple):
-    """A search for one extreme: the output, the figure of it that is judged, and the steps, which
-    ask for points.
+    """A search for one extreme: the output, the figure of it that is judged, 1 for the least and -1
+    for the greatest, and the steps, which ask for points.
     """
 
     output: str
     figure: Callable[[Any], Any]
+    sign: float
     steps: Generator[Any, Any, tuple[Any, float]]
 
 
@@ -220,7 +230,7 @@ def _in_lockstep(places: _GridPoints, searches: Sequence[_Search]) -> list[tuple
         row = {point: i for i, point in enumerate(new)}
         answers = places.answers(np.array(list(new.values()))) if new else {}
         for at in list(asked):
-            name, figure, steps = searches[at]
+            name, figure, _, steps = searches[at]
             missing = [key for key in keys[at] if key not in known]
             if missing:
                 rows = answers[name][[row[key[0]] for key in missing]]
@@ -233,53 +243,38 @@ def _in_lockstep(places: _GridPoints, searches: Sequence[_Search]) -> list[tuple
     return ends
 
 
-def _steps_to(
-    grid: Any, judged: Any, sign: float, effort: _Effort
-) -> Generator[Any, Any, tuple[Any, float]]:
-    """The steps from the best places of the grid to the least figure, or the greatest for a sign of
-    -1; the end is the best point of all and its figure.
+def _starts(judged: Any, count: int) -> list[int]:
+    """The best place of the grid along ``count`` intervals, and the next best of those that none
+    beside them is better than: the least figure may be near any of them.
     """
-    count = grid.shape[1]
-    along = round(len(grid) ** (1.0 / count))
-    # About as wide as the grid, so as not to leap from one valley into another.
-    size = 0.5 ** max(1, int(math.log2(along - 1)))
-    ends = []
-    for start in _starts(sign * judged, (along,) * count):
-        found = yield from _steps_from(grid[start], float(judged[start]), sign, size, effort)
-        ends.append(found)
-    return min(ends, key=lambda end: sign * end[1])
-
-
-def _starts(judged: Any, shape: tuple[int, ...]) -> list[int]:
-    """The best place of the grid, and the next best of those that none beside them is better than:
-    the extreme may lie beside any of them.
-    """
-    count = len(shape)
     found = np.where(np.isnan(judged), math.inf, judged)
-    padded = np.pad(found.reshape(shape), 1, constant_values=math.inf)
-    least, falls = np.ones(shape, dtype=bool), np.zeros(shape, dtype=bool)
-    inner = (slice(1, -1),) * count
+    grid = found.reshape((round(len(found) ** (1.0 / count)),) * count)
+    none_better, one_worse = np.ones(grid.shape, dtype=bool), np.zeros(grid.shape, dtype=bool)
     for axis in range(count):
-        for by in (-1, 1):
-            beside = np.roll(padded, by, axis)[inner]
-            least &= found.reshape(shape) <= beside
-            falls |= (found.reshape(shape) < beside) & np.isfinite(beside)
+        along, better, worse = (np.moveaxis(of, axis, 0) for of in (grid, none_better, one_worse))
+        for here, beside in ((slice(1, None), slice(None, -1)), (slice(None, -1), slice(1, None))):
+            better[here] &= along[here] <= along[beside]
+            worse[here] |= along[here] < along[beside]
     best = int(np.argmin(found))
-    valleys = np.flatnonzero((least & falls).ravel() & np.isfinite(found))
+    valleys = np.flatnonzero(none_better & one_worse)
     others = [int(one) for one in valleys[np.argsort(found[valleys], kind="stable")] if one != best]
     return [best, *others[: _VALLEYS - 1]]
 
 
 def _steps_from(
-    place: Any, judged: float, sign: float, size: float, effort: _Effort
+    grid: Any, start: int, judged: float, sign: float, effort: _Effort
 ) -> Generator[Any, Any, tuple[Any, float]]:
-    """The steps from one place to the least or the greatest figure near it.
+    """The steps from one place of the grid to the least figure near it, or the greatest for a sign
+    of -1.
 
-    Each step asks for the figures at the points around the best one, at first so far from it; the
-    end is that point and its figure.
+    Each step asks for the figures at the points around the best one; the end is that point and its
+    figure.
     """
-    value, smallest = sign * judged, 0.5**effort.halvings
-    steps = _steps(len(place), effort)
+    place, value = grid[start], sign * judged
+    steps, smallest = _steps(len(place), effort), 0.5**effort.halvings
+    # At first about as far as the grid is wide, so as not to leap from one valley into another.
+    along = round(len(grid) ** (1.0 / len(place)))
+    size = 0.5 ** max(1, int(math.log2(along - 1)))
     for _ in range(_PATIENCE * effort.halvings):
         around = np.clip(place + size * steps, 0.0, 1.0)
         beside = sign * (yield around)

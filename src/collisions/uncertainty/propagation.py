@@ -43,7 +43,7 @@ from .model import (
 )
 from .one_sided import Answers, OneSided
 from .one_sided_output import OneSidedOutput, one_sided_notes
-from .result import Output, Propagation, Sampled, Shares, wrap_notes, wraps_of
+from .result import Output, Propagation, Sampled, Shares, tail_notes, wrap_notes, wraps_of
 from .sampling import Correlation, Joint, Sample, sampled_shares
 
 Method: TypeAlias = Literal[
@@ -725,6 +725,7 @@ def _notes(
     notes = [
         *notes_of_samples(model.noted),
         *(note for run in runs for note in one_sided_notes(run.outputs)),
+        *(tail_notes(runs[0].outputs) if len(runs) == 1 else ()),
     ]
     if method in LOCAL:
         notes += _not_local(method, runs, failed)

@@ -51,6 +51,9 @@ _OF_A_JUMP = 4.0  # times the standard error: twice as far as two errors should 
 # that are spread by chance one in five thousand is, and such a gap is little beside their scatter.
 _NEXT_TO, _MANY_TIMES = 8, 15.0
 _MOST_BINS = 10000
+# From so many cases on, the share of the variance that one of them has at most: of a normal output
+# it is 3 % of 256 cases, and less of more.
+_MANY, _MOST_OF_ONE = 256, 0.1
 # Heads of figures that are none.
 _ONE_ANSWER = "in the one case that has an answer, so no spread is known"
 _NO_ANSWER = "no case has an answer"
@@ -562,7 +565,7 @@ class Sampled(Output):
         """
         error, found = self._error(average), self._answered
         if np.isin(found, (0.0, 1.0)).all():
-            return max(error, 1.0 / found.size)
+            return max(error, self._one_case())
         # Points that lie evenly can be as many on either side of a jump in every sequence, which
         # then do not scatter by it.
         return max(error, _jump(found / found.size))
@@ -695,9 +698,9 @@ class Sampled(Output):
         found = np.sort(self.values[~np.isnan(self.values)])
         return found if found.size else np.array([np.nan])
 
-    def _unseen(self) -> float:
-        """How large a share of all cases may lie between those that there are."""
-        return float(0.5 / self._answered.size)
+    def _one_case(self) -> float:
+        """The share of one case: what is more seldom, those that there are do not show."""
+        return 1.0 / float(self._answered.size)
 
     def _quantile_error(self, share: float) -> float:
         found = self._answered
@@ -706,7 +709,9 @@ class Sampled(Output):
         at = float(_quantiles(found, share))
         # The shares of points that lie evenly can all be the same, and the quantile still lies
         # anywhere between two of them.
-        error = math.hypot(self._error(lambda values: np.mean(values <= at)), self._unseen())
+        error = math.hypot(
+            self._error(lambda values: np.mean(values <= at)), 0.5 * self._one_case()
+        )
         width = max(error, math.sqrt(share * (1.0 - share) / found.size))
         low, high = max(0.0, share - width), min(1.0, share + width)
         ends = _quantiles(found, (low, high))
@@ -784,6 +789,28 @@ def wraps_of(outputs: Mapping[str, Sampled]) -> dict[str, str]:
     """By name of the outputs that look like an angle that jumps, or point to all sides, which."""
     wraps = {name: output._wraps() for name, output in outputs.items()}
     return {name: where for name, where in wraps.items() if where is not None}
+
+
+def tail_notes(outputs: Mapping[str, Output]) -> Iterator[Note]:
+    """That mean and standard deviation of an output rest on few cases far out."""
+    for name, output in outputs.items():
+        if not isinstance(output, Sampled) or output._sides is not None:
+            continue
+        values = output._answered
+        varies = output._std() > NO_SPREAD * float(np.max(abs(values)))
+        # A yes or no has a probability, whose error says how few cases it rests on.
+        if values.size < _MANY or not varies or np.isin(values, (0.0, 1.0)).all():
+            continue
+        apart = values - average(values)
+        squares = (apart / power_of_two(apart)) ** 2
+        share = float(np.max(squares) / np.sum(squares))
+        if share > _MOST_OF_ONE:
+            yield Note(
+                None,
+                f"one of {values.size} cases has {100.0 * share:.0f} % of the variance of {name}: "
+                "its mean and standard deviation, and their standard errors, rest on few cases far "
+                "out; read its range",
+            )
 
 
 def wrap_notes(wrapped: Mapping[str, str]) -> Iterator[Note]:
