@@ -9,7 +9,8 @@ import pytest
 
 import collisions as col
 from collisions import plot, reconstruct, reference, travel, uncertainty
-from collisions.messages.hints import hinted
+from collisions.cases.read import suggestion
+from collisions.messages.hints import hinted, nearest
 from collisions.quantities.attributes import Frozen, derived
 
 A, B = col.Vehicle(mass="3400 lb", vx="30 mph"), col.Vehicle(mass="3000 lb")
@@ -287,6 +288,18 @@ def test_an_argument_in_capitals_is_the_one_that_is_meant(name):
 def test_a_hint_never_names_the_other_vehicle(written, cure):
     with pytest.raises(TypeError, match=rf"'{written}'; {cure}$"):
         reconstruct.momentum(1500.0, 1200.0, **{written: 1.0})
+
+
+def test_what_says_one_vehicle_is_none_of_the_other_in_files_and_reports():
+    observed = ["b.delta_v", "a.delta_v", "b.yaw_rate"]
+    assert suggestion("delta_v_a", observed) == "did you mean a.delta_v?"
+    impact = col.linear_central(col.Vehicle(mass=1000.0, vx=10.0), col.Vehicle(mass=1000.0), 0.1)
+    with pytest.raises(col.InputError, match=r"near it are a_delta_v, a\.delta_v, a_delta_vy$"):
+        col.report(impact, answers=["delta_v_a"])
+    # Where nothing of it is near, what the other one has is.
+    assert nearest("B.tyres.friction", ["A.tyres.friction", "B.mass"], 3, 0.5) == [
+        "A.tyres.friction"
+    ]
 
 
 def test_a_hint_at_what_points_the_other_way_says_so():

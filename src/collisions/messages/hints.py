@@ -46,8 +46,8 @@ _CALLED = {
 }
 
 
-# The letter, or the number, of a vehicle in the name of an argument: speed_a_after, va_after.
-_VEHICLE = r"(?:(?<=_)|(?<=^)|(?<=^v)|(?<=\D)(?=\d))[ab12](?=_|$)"
+# The letter, or the number, of a vehicle in a name: speed_a_after, va_after, a.delta_v.
+_VEHICLE = r"(?:(?<=[_.])|(?<=^)|(?<=^v)|(?<=\D)(?=\d))[ab12](?=[_.]|$)"
 # What points the other way.
 _OPPOSITE = {"right": "left", "back": "forward", "rear": "forward"}
 
@@ -63,7 +63,6 @@ def no_argument(
     # No argument has a capital: speed_A and speedA are speed_a.
     written = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", given).lower()
     stem, side = parted(written)
-    vehicle = _vehicle_of(written)
     near = [written] if written in known else []
     near += [name for name in known if written in _CALLED.get(name, "").split()]
     # Without the letter of a vehicle: v_a is speed_a.
@@ -72,9 +71,7 @@ def no_argument(
         for name in known
         if parted(name)[1] == side and stem in _CALLED.get(parted(name)[0], "").split()
     ]
-    # What plainly says one vehicle is no argument of the other.
-    of_it = [name for name in known if not vehicle or _vehicle_of(name) in ("", vehicle)]
-    near += nearest(written, of_it, 1, 0.75)  # friction is not restitution
+    near += nearest(written, known, 1, 0.75)  # friction is not restitution
     hint = hints.get(given) or (
         _to_write(near[0], written, known) if near else f"it has {', '.join(known)}"
     )
@@ -105,13 +102,20 @@ def _vehicle_of(name: str) -> str:
 def nearest(given: str, known: Iterable[str], most: int, alike: float) -> list[str]:
     """So many of the known names at most that are as much alike to a given one, from 0 to 1, upper
     and lower case being the same; the nearest first.
+
+    Of a name that says one vehicle those of the other come last, and where one name is asked for
+    they are none.
     """
     from difflib import get_close_matches
 
     spelled: dict[str, list[str]] = {}
     for name in known:
         spelled.setdefault(name.lower(), []).append(name)
-    found = get_close_matches(given.lower(), spelled, most, alike)
+    vehicle = _vehicle_of(given.lower())
+    others = {name for name in spelled if vehicle and _vehicle_of(name) not in ("", vehicle)}
+    found = get_close_matches(given.lower(), spelled.keys() - others, most, alike)
+    if most > 1:
+        found += get_close_matches(given.lower(), others, most, alike)
     return [name for lower in found for name in spelled[lower]][:most]
 
 
