@@ -486,7 +486,7 @@ def test_what_the_cases_asked_cannot_show_is_said():
         seed=1,
     )
     assert near.scatter["o"] == 0.0
-    assert any("in fewer than 3 of 512 cases may be missed" in one for one in near.statements)
+    assert any("and in fewer than 3 of 512 cases, may be missed" in one for one in near.statements)
     share, error = near["o"].probability(lambda values: values > 6.0)
     assert share == 0.0
     assert error == pytest.approx(1.0 / 512.0, rel=0.01)

@@ -466,7 +466,8 @@ def time_resolved(
         correction of the start changes is mostly found with a tenth of the steps. Where it cannot
         be reached the case is refused. "fixed" leaves everything where it is.
     steps : int
-        Steps per nominal duration, which is that of a linear spring with the same largest force.
+        Steps per nominal duration, which is that of a linear spring with the same largest force. At
+        its yaw rate before, a vehicle may turn by 0.25 rad within one.
     wheelbase, track : float, str, Quantity or array [m], optional
         With a drag, the same for both vehicles, with the centre of mass in the middle; 2.7 m and
         1.5 m if not given.

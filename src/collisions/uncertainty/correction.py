@@ -502,8 +502,8 @@ def _notes(
             f"{besides}: "
             "what the correction does not foresee has, in cross-validation, a standard deviation "
             f"(and share of that of the output) of {listed}; it is contained in the figures, "
-            "and as a share of the variance belongs to no input. What the finer model alone does "
-            f"in fewer than {_SEEN} of {count} cases may be missed",
+            "and as a share of the variance belongs to no input. What only the finer model does, "
+            f"and in fewer than {_SEEN} of {count} cases, may be missed",
         )
     if cases := int(np.count_nonzero(unlike)):
         others = total - count - more

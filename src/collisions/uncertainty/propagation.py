@@ -128,9 +128,9 @@ def propagate(
         beyond those asked, such as a few in which a contact slid, are asked too. Where what is left
         depends on the inputs, as beside a bend of the finer model, ends of ranges are off; their
         standard errors, and those of probabilities, are then what the cases asked tell of the
-        difference. What it leaves is due to no input in ``contributions``, and what the finer model
-        alone does in fewer than three of the cases asked may be missed. Only for methods that draw,
-        without ``tolerance``.
+        difference. What it leaves is due to no input in ``contributions``, and what only the finer
+        model does, and in fewer than three of the cases asked, may be missed. Only for methods that
+        draw, without ``tolerance``.
     finer_samples : int, optional
         How many samples the finer model is asked about, at least 64; 512 if not given, or all if
         there are fewer.

@@ -272,7 +272,7 @@ class Output(Summarized):
     def contributions(self) -> dict[str, float]:
         """Share of the variance due to each input alone, largest first; the rest, up to 1, is
         interaction, and with ``finer=`` what its correction does not foresee (``scatter``). Cases
-        without an answer are left out, also where only the input drawn again has none.
+        without an answer are left out, and so are those that lose it where an input is drawn again.
         """
         return _ranked(self._shares().first)
 
@@ -754,9 +754,9 @@ class Sampled(Output):
 
 
 def _jump(values: Any) -> float:
-    """The largest gap of sorted values that is many times as wide as those next to it on the side
-    where more values lie, and has as many sequences of cases on either side as are drawn: only then
-    can each have as many beyond it.
+    """The largest gap of sorted values that is many times as wide as those next to it, on the side
+    where more values lie. It is looked for where a multiple of the number of sequences lies below:
+    only there can each sequence have as many beyond it.
     """
     gaps = np.diff(values)
     last = gaps.size + 1 - REPLICATES
