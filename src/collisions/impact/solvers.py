@@ -492,8 +492,8 @@ def time_resolved(
     NoImpactError
         The contact points do not approach along the normal.
     NoSolutionError
-        Neither body can yield; no start leads to the positions given; or the contact does not end
-        within three nominal durations.
+        Neither body can yield; no start leads to the positions given; the contact does not end
+        within three nominal durations; or a vehicle turns by more than 0.25 rad within a step.
 
     Notes
     -----
