@@ -994,3 +994,17 @@ def test_what_no_model_takes_is_refused(moment):
     """In place of an answer without it."""
     with pytest.raises(col.InputError, match="no model that solve chooses from takes moment"):
         choose(moment())
+
+
+@pytest.mark.parametrize("rate", [63.0, 70.0, 200.0])
+def test_a_contact_that_rough_steps_do_not_follow_is_not_left_to_an_impulse(rate):
+    """In time the delta-V of A is 1.5 to 3.4 m/s; an impulse at the places given has 24 to 61."""
+    a = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=-2.0, y=0.0, vx=15.0, heading=0.0)
+    b = col.Vehicle(
+        mass=1200.0, yaw_inertia=2500.0, x=0.9, y=-0.5, heading="90 deg", yaw_rate=f"{rate} rad/s"
+    )
+    contact = {"friction": 0.5, "point": (0.0, 0.0), "normal": 0.0}
+    asked = {"duration": 0.1, "drag": 0.0, "tolerance": 0.5}
+    with pytest.raises(col.NoSolutionError) as caught:
+        col.solve(a, b, 0.2, **contact, **asked)
+    assert caught.value.code == "no_start"

@@ -73,3 +73,10 @@ def test_anything_in_any_place_is_read_or_refused(name):
                 raise AssertionError(f"{path} as {json.dumps(str(other))[:40]}") from error
     # Nearly all: what is read is what no answer rests on, such as the version.
     assert refused > 500
+
+
+def test_tyres_of_momentum_that_are_none_are_refused():
+    page = report(ANSWERS["momentum"](), form="markdown")
+    with pytest.raises(col.InputError) as caught:
+        replay(tampered(page, lambda record: record["momentum"]["inputs"].update(tyres_a=True)))
+    assert caught.value.code == "bad_record"

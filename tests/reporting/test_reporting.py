@@ -1533,6 +1533,23 @@ def test_no_row_is_said_to_be_as_it_was_given(contact):
     assert "The record at the end has every digit." in page
 
 
+def test_shares_of_a_corrected_model_say_what_is_no_input():
+    """Where a correction leaves something; not where every case was asked of the finer model."""
+    inputs = {"one": uncertainty.Normal(0.0, 1.0), "other": uncertainty.Normal(0.0, 1.0)}
+    said = "the rest comes from interactions, and from what the correction does not foresee."
+    for samples, left in ((1024, True), (256, False)):
+        known = uncertainty.propagate(
+            lambda one, other: {"sum": one + other},
+            inputs,
+            finer=lambda one, other: {"sum": one + other + 0.3 * np.sin(40.0 * one)},
+            samples=samples,
+            seed=2,
+        )
+        page = report(crash(), form="markdown", units="si", uncertainty=known)
+        assert (said in page) is left
+        assert ("the rest comes from interactions." in page) is not left
+
+
 def test_shares_of_inputs_that_act_together():
     """A product of two with mean 0: each has nothing by itself, and everything in all."""
     inputs = {"one": uncertainty.Normal(0.0, 1.0), "other": uncertainty.Normal(0.0, 1.0)}
@@ -1614,6 +1631,24 @@ def test_a_record_has_no_name_twice_and_none_that_nothing_reads(old, new, said):
     page = report(crash(), form="markdown")
     with pytest.raises(col.InputError, match=re.escape(said)) as caught:
         replay(page.replace(old, new, 1))
+    assert caught.value.code == "bad_record"
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"version": None}, "its version is None"),
+        ({"version": {"a": 1}}, "its version is {'a': 1}"),
+        ({"options": {"checked": True}}, "its options are none that report takes"),
+        ({"options": "form"}, "its options are none that report takes"),
+        ({"uncertainty": {"checked": True}}, "it has uncertainty.checked, which no record of"),
+        ({"uncertainty": True}, "its uncertainty has no method, samples and seed"),
+    ],
+)
+def test_what_a_record_has_beside_its_results_is_what_a_page_has(change, said):
+    page = report(crash(), form="markdown")
+    with pytest.raises(col.InputError, match=re.escape(said)) as caught:
+        replay(tampered(page, lambda r: r.update(change)))
     assert caught.value.code == "bad_record"
 
 

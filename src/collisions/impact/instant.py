@@ -20,8 +20,9 @@ from .reconstruction import Reconstruction
 
 # Of the tyres of an impulse: how its kernel, ``held``, limits their force.
 LIMITED = (
-    "limited to what stops the vehicle from the faster of its motions before and after, a quarter "
-    "of its mass for each wheel"
+    "that of each wheel limited at each of these moments to what would stop it, as it moves then "
+    "along its force, with a quarter of the vehicle's mass (up to twice that where the contact "
+    "sets the vehicle in motion or stops it)"
 )
 # Of pairs of known values that are not the components of recorders.
 LOOKED_FOR = (

@@ -220,9 +220,9 @@ def replay(text: str) -> Impact | MomentumSolution | Run | list[Impact | Momentu
     Raises
     ------
     InputError
-        A text without a record, or a record that cannot be read, whose inputs do not give its
-        results, or whose texts and numbers differ; or the report of a ``Fit`` or a ``Posterior``,
-        whose model is code.
+        A text without a record, or a record that cannot be read, in which a name stands twice or is
+        one that nothing reads, whose inputs do not give its results, or whose texts and numbers
+        differ; or the report of a ``Fit`` or a ``Posterior``, whose model is code.
 
     Examples
     --------
