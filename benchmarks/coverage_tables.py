@@ -12,16 +12,12 @@ DATA = Path(__file__).resolve().parent.parent / "docs" / "_generated" / "lasting
 STATED = 0.95
 HEAD = [
     "known, and which crashes",
-    "crashes",
-    "refused",
-    "warned",
-    "silent ranges",
-    "held",
+    "crashes: refused, warned",
+    "silent ranges that held",
     "99.8 % interval",
     "too low, too high",
     "one-sided",
-    "width",
-    "over that of an instant",
+    "width, over that of an instant",
 ]
 
 
@@ -45,18 +41,15 @@ def coverage(found: dict[str, Any]) -> str:
 
 def _cells(row: dict[str, Any], instant: dict[str, Any] | None) -> list[str]:
     low, high = row["interval"]
-    held = f"{100.0 * row['held'] / row['ranges']:.1f} %" if row["ranges"] else "–"
-    held = f"**{held}**" if row["ranges"] and high < STATED else held
+    share = f"{100.0 * row['held'] / row['ranges']:.1f} %" if row["ranges"] else ""
+    held = f"**{share}**" if high < STATED else share
     width, wide = row["width"], instant and instant["width"]
+    over = f", {width / wide:.2f}" if width and wide else ""
     return [
-        str(row["crashes"]),
-        str(row["refused"]),
-        str(row["warned"]),
-        str(row["ranges"]),
-        held,
+        f"{row['crashes']}: {row['refused']}, {row['warned']}",
+        f"{held} of {row['ranges']}" if row["ranges"] else "–",
         f"{100.0 * low:.0f} to {100.0 * high:.0f} %" if row["ranges"] else "–",
         f"{row['above']}, {row['below']}",
         str(row["one_sided"]),
-        "–" if width is None else f"{3.6 * width:.1f} km/h",
-        "–" if not width or not wide else f"{width / wide:.2f}",
+        "–" if width is None else f"{3.6 * width:.1f} km/h{over}",
     ]

@@ -33,6 +33,8 @@ def test_the_table_is_made_of_the_numbers_that_were_written(tables):
     assert len(rows) == 2 + len(cells)
     for line, (route, cell, row) in zip(rows[2:], cells, strict=True):
         assert line.startswith(f"| **{route}** |" if cell == "all" else f"| – {cell} |")
+        assert f"| {row['crashes']}: {row['refused']}, {row['warned']} |" in line
+        assert (f" of {row['ranges']} |" in line) == (row["ranges"] > 0)
         assert row["ranges"] == row["held"] + row["above"] + row["below"]
         if row["ranges"]:
             exact = stats.binomtest(row["held"], row["ranges"]).proportion_ci(0.998, "exact")
