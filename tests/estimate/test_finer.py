@@ -465,6 +465,38 @@ def test_a_fit_by_a_line_has_a_closed_form():
     assert found["x"].standard_error == pytest.approx(0.25, rel=1e-6)
 
 
+def test_ranges_of_a_finer_model_that_bends_cost_few_calls_of_it():
+    """Ends at which chi-squared, with the other unknowns fitted again, rises by 3.84: as of the
+    finer model alone, with a call of it where that takes one more for each unknown.
+    """
+
+    def bent(more):
+        def model(speed, friction, mass, angle):
+            energy = mass * speed**2 * (1.0 + more * friction)
+            return {
+                "energy": energy,
+                "way": speed**2 / friction + 30.0 * more * angle,
+                "delta-V": speed * np.cos(angle) + more * friction**2,
+            }
+
+        return model
+
+    unknowns = {
+        "speed": Interval(1.0, 40.0),
+        "friction": Normal(0.6, 0.15, truncate=(0.1, 1.2)),
+        "mass": Normal(1.5, 0.1),
+        "angle": Normal(0.3, 0.3),
+    }
+    observed = {"energy": (330.0, 90.0), "way": (300.0, 120.0), "delta-V": (13.0, 3.0)}
+    alone = fit(bent(0.1), unknowns, observed)
+    found = fit(bent(0.0), unknowns, observed, finer=bent(0.1))
+    assert found.profiles
+    for name in found.profiles:
+        low, high = alone[name].interval(0.95)
+        assert found[name].interval(0.95) == pytest.approx((low, high), abs=0.005 * (high - low))
+    assert found.calls["finer"] < 0.06 * found.calls["model"]
+
+
 def test_two_answers_of_the_finer_model_are_refused_with_the_call_to_write():
     """Of (x - 1)^2 = 4: both are found from both answers of x^2 = 4."""
     with pytest.raises(col.AmbiguousSolutionError) as refused:

@@ -635,6 +635,16 @@ def test_a_run_is_no_list_of_paths() -> None:
             scene().as_model(*given)  # type: ignore[arg-type]
 
 
+def test_paths_of_an_object_that_raises_are_refused() -> None:
+    class Broken:
+        def __iter__(self) -> Any:
+            raise RuntimeError("no")
+
+    for given in ((Broken(), ["end"]), (["A.vx"], Broken())):
+        with pytest.raises(InputError, match="must be a list of paths"):
+            scene().as_model(*given)
+
+
 def test_paths_may_come_one_by_one() -> None:
     """Both are asked for again later."""
     moving = Scene(movers={"A": Mover(CAR, drag=0.7)}, contacts=[])

@@ -383,6 +383,7 @@ def _read_inputs(function: Any, unknowns: Any, observed: Any) -> tuple[_Inputs, 
         low=low,
         high=high,
         scale=scale,
+        span=np.where(has_prior, _PRIOR_SPAN, 1.0) * scale,
     )
 
 
@@ -390,11 +391,10 @@ def _starts(inputs: _Inputs, problem: Problem) -> Any:
     """Where to start: all over the bounds, or around the start as far as its scale, or three
     deviations of the prior.
     """
-    span = np.where(inputs.has_prior, _PRIOR_SPAN, 1.0) * problem.scale
     points = spread(
         _STARTS,
-        np.maximum(problem.low, inputs.start - span),
-        np.minimum(problem.high, inputs.start + span),
+        np.maximum(problem.low, inputs.start - problem.span),
+        np.minimum(problem.high, inputs.start + problem.span),
     )
     points[0] = inputs.start
     return points
@@ -499,7 +499,8 @@ class _Candidate:
             -1, len(self.point)
         )
         within = np.clip(points, self.problem.low, self.problem.high)
-        outputs, slopes = self.problem.with_slopes(within)
+        quick = self.problem.borrowing(self.point, self.slopes)
+        outputs, slopes = quick.with_slopes(within)
         held = np.tile(which, 2)
         fixed = (
             ~self.free | (within != points) | (np.arange(len(self.point)) == held[:, np.newaxis])
@@ -512,7 +513,7 @@ class _Candidate:
         straight = np.tile(_straight(far, self._rise(total)), 2)
         if np.any(straight):
             # The slopes at one place do not tell of a kink beyond it.
-            total[straight] = least_at(self.problem, within[straight], held[straight])
+            total[straight] = least_at(quick, within[straight], held[straight])
         return far, self._rise(total)
 
     def _rise(self, chi_squared: Any) -> Any:

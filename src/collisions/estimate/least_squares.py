@@ -15,10 +15,13 @@ _ROUNDS = 200
 # Convergence limit: the remaining step in standard errors, or relative to the misfit where that is
 # larger.
 _CLOSE = 1e-8
+# The same with a finer model, each call of which is dear: chi-squared to 1e-8.
+_CLOSE_OF_FINER = 1e-4
 # The same where rounding of the model lets the search come no closer.
 _CLOSE_ENOUGH = 1e-3
 # Of chi-squared, or absolute: a search that falls by less over so many rounds gets no further.
 _STALLED, _STALLED_ROUNDS = 1e-6, 10
+_STALLED_OF_FINER, _ROUNDS_OF_FINER = 1e-3, 4
 _FIRST_DAMPING = 1e-2
 # of the largest slope: an unknown that changes less is damped like one that changes so much
 _LEAST_WEIGHT = 1e-3
@@ -45,16 +48,24 @@ _DIFFERENCE_ERROR = 10.0  # eps of the model's outputs, in a difference
 _LARGEST = 1e100
 
 
+class Borrowed(NamedTuple):
+    """Slopes (m, n) of a problem at one point, and those of its scout there."""
+
+    slopes: Any
+    of_scout: Any
+
+
 class Problem(NamedTuple):
     """A least-squares problem in units of standard deviations.
 
     ``evaluate`` takes points (k, n) and returns the outputs of the model there (k, m), NaN where it
     refuses; ``period`` is NaN for what does not go round a circle; ``scale`` is how far each
-    unknown may be expected to move, and ``size`` the length over which the model changes, which
-    sets the steps of the slopes; without it, a guess from the scale. ``noise`` is how far outputs
-    scatter from one neighbour to the next, as where a model integrates with steps of its own;
-    slopes are then taken over a part of ``reach``, the errors of the unknowns. ``scout`` is the
-    problem of a cheaper model, for where to look.
+    unknown may be expected to move, ``span`` how far searches go, and ``size`` the length over
+    which the model changes, which sets the steps of the slopes; without it, a guess from the scale.
+    ``noise`` is how far outputs scatter from one neighbour to the next, as where a model integrates
+    with steps of its own; slopes are then taken over a part of ``reach``, the errors of the
+    unknowns. ``scout`` is the problem of a cheaper model, for where to look; with ``borrowed``
+    slopes those elsewhere change as the scout's do.
     """
 
     evaluate: Callable[[Any], Any]
@@ -63,10 +74,21 @@ class Problem(NamedTuple):
     low: Any
     high: Any
     scale: Any
+    span: Any
     size: Any = None
     noise: float = 0.0
     reach: Any = None
     scout: Problem | None = None
+    borrowed: Borrowed | None = None
+
+    def borrowing(self, point: Any, slopes: Any) -> Problem:
+        """The same with the slopes at one point (m, n) and their changes from the scout, if there
+        is one: a model of n unknowns is then asked once for a point, not 1 + 2 n times.
+        """
+        if self.scout is None:
+            return self
+        of_scout = self.scout.with_slopes(point[np.newaxis])[1][0]
+        return self._replace(borrowed=Borrowed(slopes, of_scout))
 
     def wrapped(self, difference: Any) -> Any:
         """Differences of angles by the short way round, within half a turn."""
@@ -128,6 +150,11 @@ class Problem(NamedTuple):
         """Outputs (k, m) and their derivatives (k, m, n) by differences, NaN where the model
         refuses on both sides; 0 by what is ``held`` (k, n).
         """
+        if self.scout is not None and self.borrowed is not None:
+            change = self.scout.with_slopes(points, held)[1] - self.borrowed.of_scout
+            slopes = self.borrowed.slopes + np.where(np.isfinite(change), change, 0.0)
+            free = True if held is None else ~held[:, np.newaxis]
+            return self.evaluate(points), np.where(free, slopes, 0.0)
         outputs, (above, below), (up, down) = self.neighbours(points, held)
         return outputs, np.swapaxes((above - below) / (up - down), 1, 2)
 
@@ -224,9 +251,14 @@ def minimise(
 
     Damping after Nielsen (IMM-REP-1999-05). A search has converged when the undamped step that is
     left, in the metric of the standard errors, is rounding; one that no step down to the square of
-    ``close`` takes lower, as at a jump or a refusal, has not.
+    ``close`` takes lower, as at a jump or a refusal, has not. With a scout, its slopes lead most of
+    the way.
     """
     points = np.clip(starts, problem.low, problem.high)
+    if problem.scout is not None and problem.borrowed is None:
+        quick = problem.borrowing(points[0], problem.with_slopes(points[:1])[1][0])
+        points = minimise(quick, points, held=held, close=close, rounds=rounds).points
+        close = max(close, _CLOSE_OF_FINER)
     fixed = np.zeros(points.shape, dtype=bool) if held is None else held
     outputs, slopes = problem.with_slopes(points, fixed)
     cost = _cost(problem, outputs, slopes)
@@ -234,12 +266,18 @@ def minimise(
     damping, growth = np.full(len(points), _FIRST_DAMPING), np.full(len(points), 2.0)
 
     earlier = np.full(len(points), np.inf)
+    stalled, often = (
+        (_STALLED, _STALLED_ROUNDS)
+        if problem.scout is None
+        else (_STALLED_OF_FINER, _ROUNDS_OF_FINER)
+    )
 
     for count in range(rounds):
-        if count % _STALLED_ROUNDS == 0:
-            # Along a kink a search goes on by ever shorter steps.
-            slow = np.flatnonzero(live & (earlier - cost <= _STALLED * np.maximum(1.0, cost)))
-            live[slow[problem.kinks(points[slow])]] = False
+        if count % often == 0:
+            # Along a kink a search goes on by ever shorter steps; borrowed slopes go no further.
+            slow = np.flatnonzero(live & (earlier - cost <= stalled * np.maximum(1.0, cost)))
+            at_kink = True if problem.borrowed is not None else problem.kinks(points[slow])
+            live[slow[at_kink]] = False
             earlier = cost.copy()
         rows = np.flatnonzero(live)
         trial, foreseen, left[rows] = _step(

@@ -34,7 +34,19 @@ _TRIED, _FIRST_ROUNDS = 4, 3  # of these: how many, and rounds until the best is
 _DEPARTS = 0.1  # sigma: places where the model is nearer to its slopes need no search
 _ALIKE = 0.02  # of the way, and sigma: ends this near each other need no fit in between
 _MOST_REFINED = 3  # fits in between
+_MISSED, _MOST_PUT_RIGHT = 0.05, 6  # of chi-squared, by borrowed slopes at 95 percent; and fits
 _LOWER = 0.05  # of chi-squared: what is lower by less is the same valley
+
+
+class Place(NamedTuple):
+    """A value of a side, between others: before which of them it is, and the rise and all unknowns
+    that these put there.
+    """
+
+    number: int
+    value: float
+    rise: float
+    point: Any
 
 
 class Side(NamedTuple):
@@ -54,11 +66,11 @@ class Side(NamedTuple):
 
     def reach(self, level: float) -> float:
         """The furthest value with no more than this rise; NaN if there is none."""
-        ends = [one._end(level) for one in (self, *self.valleys)]
+        ends = [one.end(level) for one in (self, *self.valleys)]
         outward = max if self.bound > self.values[0] else min
         return float(outward((x for x in ends if not math.isnan(x)), default=math.nan))
 
-    def _end(self, level: float) -> float:
+    def end(self, level: float) -> float:
         """The furthest value with no more than this rise in this valley."""
         inside = np.flatnonzero(self.rises <= level)
         if not inside.size:
@@ -80,9 +92,9 @@ class Side(NamedTuple):
         way = math.copysign(1.0, self.bound - self.values[0])
         return float(np.interp(way * value, way * self.values, self.rises))
 
-    def in_doubt(self, level: float) -> tuple[float, int] | None:
-        """The furthest value with this rise and the place before it, if it is between places and a
-        straight line in the rise leads elsewhere.
+    def in_doubt(self, level: float) -> Place | None:
+        """The place of the furthest value with this rise, if it is between others and a straight
+        line in the rise leads elsewhere.
         """
         inside = np.flatnonzero(self.rises <= level)
         k = int(inside[-1]) if inside.size else len(self.values)
@@ -94,15 +106,29 @@ class Side(NamedTuple):
         )
         alike = abs(end - straight) <= _ALIKE * abs(end - self.values[0])
         near = min(abs(self.rises[k : k + 2] - level)) <= _ALIKE
-        return None if alike or near else (end, k + 1)
+        return None if alike or near else self.place(end)
 
-    def with_place(self, k: int, value: float, rise: float, slope: float, point: Any) -> Side:
-        """One place more, before place k."""
+    def place(self, value: float) -> Place:
+        """The place of a value, with all unknowns and the rise as straight lines put them."""
+        way = math.copysign(1.0, self.bound - self.values[0])
+        outward = way * self.values
+        n = int(np.searchsorted(outward, way * value))
+        point = np.array([np.interp(way * value, outward, one) for one in self.points.T])
+        return Place(n, value, self.rise_at(value), point)
+
+    def with_place(self, place: Place, rise: float, slope: float, point: Any) -> Side:
+        """With what was found at a place, instead of what was there, if anything."""
+        n = place.number
+        rest = n + int(n < len(self.values) and self.values[n] == place.value)
+
+        def put(of: Any, new: Any) -> Any:
+            return np.concatenate([of[:n], [new], of[rest:]])
+
         return self._replace(
-            values=np.insert(self.values, k, value),
-            rises=np.insert(self.rises, k, rise),
-            slopes=np.insert(self.slopes, k, slope),
-            points=np.insert(self.points, k, point, axis=0),
+            values=put(self.values, place.value),
+            rises=put(self.rises, rise),
+            slopes=put(self.slopes, slope),
+            points=put(self.points, point),
         )
 
     def _between(self, k: int, level: float) -> float:
@@ -182,7 +208,62 @@ def followed(
 
     A fit that goes on from the value before stays on its side of a kink. So where a track reaches
     95 percent the other unknowns are fitted from elsewhere as well, and a lower misfit met there is
-    followed both ways.
+    followed both ways. With a scout its slopes lead the way, and those of the model itself put the
+    ends right.
+    """
+    start = minimise(problem, point[np.newaxis])
+    quick = problem.borrowing(start.points[0], start.slopes[0])
+    pieces, least = _pieces(quick, start, point, chi_squared, covariance, which)
+    if quick is not problem:
+        _put_right(problem, chi_squared, pieces)
+    sides = {j: (_joined(low), _joined(high)) for j, (low, high) in pieces.items()}
+    return Found(sides, *least)
+
+
+def _joined(pieces: list[Side]) -> Side:
+    """A side of its pieces: that of the answer, and those of other valleys."""
+    return pieces[0]._replace(valleys=tuple(pieces[1:]))
+
+
+def _put_right(
+    problem: Problem, chi_squared: float, pieces: dict[int, tuple[list[Side], list[Side]]]
+) -> None:
+    """Fit at the end of 95 percent of each piece by slopes of the model itself, until that moves
+    it no more.
+    """
+    asked = [(j, side, i) for j, both in pieces.items() for side in both for i in range(len(side))]
+    for _ in range(_MOST_PUT_RIGHT):
+        ends = [side[i].end(LEVELS[_AT_95]) for _, side, i in asked]
+        asked = [one for one, end in zip(asked, ends, strict=True) if not math.isnan(end)]
+        if not asked:
+            break
+        ends = [end for end in ends if not math.isnan(end)]
+        places = [side[i].place(end) for (_, side, i), end in zip(asked, ends, strict=True)]
+        starts, held = np.stack([one.point for one in places]), np.array([j for j, *_ in asked])
+        starts[np.arange(len(held)), held] = ends
+        kept = np.arange(starts.shape[1]) == held[:, np.newaxis]
+        found = minimise(problem, starts, held=kept, close=_CLOSE, rounds=_LAST_ROUNDS)
+        climbs = _climbs(problem, found, held)
+        moved = []
+        for row, ((j, side, i), place) in enumerate(zip(asked, places, strict=True)):
+            rise = math.sqrt(max(0.0, found.chi_squared[row] - chi_squared))
+            if math.isfinite(rise):
+                side[i] = side[i].with_place(place, rise, climbs[row], found.points[row])
+            if abs(rise**2 - place.rise**2) > _MISSED:
+                moved.append((j, side, i))
+        asked = moved
+
+
+def _pieces(
+    problem: Problem,
+    start: Ends,
+    point: Any,
+    chi_squared: float,
+    covariance: Any,
+    which: Iterable[int],
+) -> tuple[dict[int, tuple[list[Side], list[Side]]], tuple[float, Any]]:
+    """For both sides of each of these unknowns the piece of the answer and those of other valleys;
+    and the least misfit met on the way, with its place.
     """
     errors = np.sqrt(np.diagonal(covariance))
     wide = np.minimum(problem.high - problem.low, problem.scale)
@@ -190,7 +271,6 @@ def followed(
     ways = np.where(np.isfinite(errors), covariance / errors**2, 0.0).T
     ways = np.where(np.isfinite(ways), ways, 0.0)
 
-    start = minimise(problem, point[np.newaxis])
     begin = math.sqrt(max(0.0, start.chi_squared[0] - chi_squared))
     # To either side by itself: the answer may be at a kink.
     _, changes, moves = problem.neighbours(point[np.newaxis])
@@ -239,9 +319,8 @@ def followed(
             k: track.reached for k, track in zip(owners, tracks[::2], strict=True) if track.reached
         }
     _refine(problem, chi_squared, begins, pieces)
-    sides = [main._replace(valleys=tuple(others)) for main, *others in pieces]
-    both = {begins[k].unknown: (sides[k], sides[k + 1]) for k in range(0, len(begins), 2)}
-    return Found(both, *least)
+    both = {begins[k].unknown: (pieces[k], pieces[k + 1]) for k in range(0, len(begins), 2)}
+    return both, least
 
 
 def _refine(
@@ -251,25 +330,27 @@ def _refine(
     level = LEVELS[_AT_95]
     for _ in range(_MOST_REFINED):
         asked = [
-            (k, i, *doubt)
+            (k, i, place)
             for k, side in enumerate(pieces)
             for i, piece in enumerate(side)
-            if (doubt := piece.in_doubt(level))
+            if (place := piece.in_doubt(level))
         ]
         if not asked:
             break
         # From both sides, since there may be a kink in between.
-        starts = np.concatenate([pieces[k][i].points[n - 1 : n + 1] for k, i, _, n in asked])
+        starts = np.concatenate(
+            [pieces[k][i].points[at.number - 1 : at.number + 1] for k, i, at in asked]
+        )
         held = np.repeat([begins[k].unknown for k, *_ in asked], 2)
-        starts[np.arange(len(held)), held] = np.repeat([end for _, _, end, _ in asked], 2)
+        starts[np.arange(len(held)), held] = np.repeat([at.value for *_, at in asked], 2)
         kept = np.arange(starts.shape[1]) == held[:, np.newaxis]
         ends = minimise(problem, starts, held=kept, close=_CLOSE, rounds=_LAST_ROUNDS)
         climbs = _climbs(problem, ends, held)
-        for row, (k, i, end, n) in zip(range(0, len(held), 2), asked, strict=True):
+        for row, (k, i, at) in zip(range(0, len(held), 2), asked, strict=True):
             row += int(np.argmin(ends.chi_squared[row : row + 2]))
             rise = math.sqrt(max(0.0, ends.chi_squared[row] - chi_squared))
             if math.isfinite(rise):
-                pieces[k][i] = pieces[k][i].with_place(n, end, rise, climbs[row], ends.points[row])
+                pieces[k][i] = pieces[k][i].with_place(at, rise, climbs[row], ends.points[row])
 
 
 def _follow(
@@ -360,14 +441,14 @@ def beside(problem: Problem, places: Ends, held: Any) -> Ends:
         if into.size:
             _put(found, into, problem, seen.points[into], kept[into])
         return found
-    scaled = np.where(kept[:, np.newaxis], 0.0, places.slopes * problem.scale)
+    scaled = np.where(kept[:, np.newaxis], 0.0, places.slopes * problem.span)
     _, size, direction = np.linalg.svd(np.where(np.isfinite(scaled), scaled, 0.0))
-    # In the directions of the slopes, as far as the misfit rises alike along each, or one scale;
+    # In the directions of the slopes, as far as the misfit rises alike along each, or one span;
     # the last is that of what is kept.
     far = np.ones((count, n))
     far[:, : size.shape[1]] = np.minimum(1.0, _AWAY / np.maximum(size, _AWAY))
     around = spread(_ELSEWHERE, -np.ones(n - 1), np.ones(n - 1))
-    moved = np.einsum("si,ki,kij->ksj", around, far[:, :-1], direction[:, :-1]) * problem.scale
+    moved = np.einsum("si,ki,kij->ksj", around, far[:, :-1], direction[:, :-1]) * problem.span
     moved = np.where(kept[:, np.newaxis], 0.0, moved)
     starts = np.clip(places.points[:, np.newaxis] + moved, problem.low, problem.high)
     moved = starts - places.points[:, np.newaxis]

@@ -5,6 +5,7 @@ it.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -231,13 +232,11 @@ def _moving_before(scene: Scene, path: str) -> Iterator[str]:
 def _paths_in(given: Any, argument: str) -> tuple[Any, ...]:
     """What a collection of paths holds; refused is one text and what is none.
 
-    A Quantity of one number has the method of a collection.
+    A Quantity of one number has the method of a collection, and an object may raise anything in it.
     """
     if not isinstance(given, str) and isinstance(given, Iterable):
-        try:
+        with suppress(Exception):
             return tuple(given)
-        except TypeError:
-            pass
     raise InputError(
         f"{argument} must be a list of paths, such as ['Camry.vx'], got {shown(given)}",
         code="bad_shape",
