@@ -277,7 +277,6 @@ def test_truncation_of_a_prior_bounds_the_search():
     assert found.values["x"] == 2.0
     assert found.chi_squared == pytest.approx(0.25 + 2.25, abs=1e-12)
     assert found.bounds["x"] == (-math.inf, 2.0)
-    assert found.inputs["x"].truncate == (None, 2.0)
 
 
 def test_a_start_far_too_small_is_left_behind():
@@ -1192,6 +1191,73 @@ def test_a_fit_feeds_a_propagation():
     exact = np.sqrt(np.diagonal(matrix @ found.covariance @ matrix.T))
     for name, deviation in zip(ROW, exact, strict=False):
         assert result[name].std == pytest.approx(deviation, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("model", "unknown", "reading", "words"),
+    [
+        # Of v^4 / 1000 = 20 with an error of 15, chi-squared is 1.78 at v = 0.
+        (lambda v: {"o": v**4 / 1e3}, Interval(0, 60), (20.0, 15.0), "the model bends"),
+        (lambda v: {"o": v}, Interval(0, 4), (5.0, 1.0), "v ended on its high bound"),
+        (lambda v: {"o": v}, Interval(0, 1), (0.4, 5.0), "excludes no value of v"),
+        (lambda v: {"o": np.where(v > 0.9, v, np.nan)}, Interval(0, 3), (1.0, 0.1), "refuses"),
+        (lambda v: {"o": np.abs(v - 1.0)}, Interval(-3, 4), (0.5, 1.0), "another answer fits"),
+    ],
+)
+def test_normals_that_do_not_describe_an_answer_are_not_handed_on(model, unknown, reading, words):
+    found, _ = fitted(model, {"v": unknown}, {"o": reading})
+    with pytest.raises(col.NoSolutionError, match=words) as refused:
+        assert found.inputs
+    assert refused.value.code == "not_normal"
+    assert "posterior(model, unknowns, observed, seed=1).inputs()" in str(refused.value)
+
+
+def contradictory():
+    """Two readings of one speed, 10 and 30 with an error of 1: 20 with one of 0.71, at a
+    chi-squared of 200.
+    """
+    readings = {"a": (10.0, 1.0), "b": (30.0, 1.0)}
+    return fitted(lambda v: {"a": v, "b": v}, {"v": Interval(0, 60)}, readings)[0].inputs["v"]
+
+
+def with_a_sum(known):
+    first = reconstruct.posterior(same, {"v": Normal(9.0, 1.0)}, {"o": (9.0, 1.0)}, seed=1)
+    return first.with_result("sum", lambda v, u: v + u, v=first["v"], u=known)
+
+
+def same(v):
+    return {"o": v + 0.0}
+
+
+@pytest.mark.parametrize(
+    ("study", "name"),
+    [
+        (lambda known: propagate(same, {"v": known}, seed=1), "v"),
+        (lambda known: propagate(same, {"v": known}, method="interval"), "v"),
+        (lambda known: fit(same, {"v": known}, {"o": (20.0, 1.0)}), "v"),
+        (lambda known: reconstruct.posterior(same, {"v": known}, {"o": (20.0, 1.0)}, seed=1), "v"),
+        (with_a_sum, "u"),
+    ],
+)
+def test_what_a_fit_states_goes_with_its_inputs(study, name):
+    known = pickle.loads(pickle.dumps(contradictory()))
+    with warnings.catch_warnings(record=True) as given:
+        warnings.simplefilter("always")
+        second = study(known)
+    assert [one.message.code for one in given] == ["contradictory"]
+    (said,) = (one for one in second.statements if "contradicts itself" in one)
+    assert said.startswith(f"from a fit ({name}): the evidence contradicts itself")
+    assert str(given[0].message).startswith(said)
+    assert said in second.to_dict()["statements"]
+    assert said[1:] in " ".join(str(second.summary()).split())
+
+
+def test_evidence_that_agrees_is_not_handed_on():
+    found, _ = simple()
+    result = propagate(
+        linear([[1.0, 1.0]]), found.inputs, seed=1, samples=64, correlation=found.correlation
+    )
+    assert result.statements == ()
 
 
 def test_a_unit_that_begins_with_1_comes_back():

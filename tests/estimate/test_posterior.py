@@ -425,6 +425,25 @@ def test_joint_samples_as_priors_go_on():
     assert result["s"].mean == pytest.approx(first["s"].mean, abs=0.01)
     # Var(s) of the posterior is 1/(1/2 + 4).
     assert result["s"].std == pytest.approx(math.sqrt(1.0 / 4.5), rel=0.05)
+    assert result.statements == ()
+
+
+def test_what_a_posterior_states_goes_with_its_samples():
+    """Two readings of one speed that are 14 of their errors apart, of an impact as an instant."""
+
+    def model(v):
+        a, b = col.Vehicle(mass=1000.0, vx=v), col.Vehicle(mass=1000.0)
+        after = col.linear_central(a, b, 0.0, on_failure="nan").b.after.vx
+        return {"one": after, "other": after}
+
+    readings = {"one": (5.0, 1.0), "other": (25.0, 1.0)}
+    first, codes = sampled(model, {"v": Uniform(0.0, 60.0)}, readings)
+    assert codes == ["contradictory"]
+    with pytest.warns(col.CollisionsWarning) as given:
+        second = propagate(lambda v: {"o": v + 0.0}, first.inputs(), seed=1)
+    assert [one.message.code for one in given] == ["contradictory"]
+    assert second.statements == tuple(f"from a posterior (v): {one}" for one in first.statements)
+    assert "as an instant" in second.statements[-1]
 
 
 @pytest.mark.slow

@@ -18,7 +18,7 @@ from ..messages.marked import as_code, type_of
 from ..messages.warning import NO_ANSWER, Note, notes_of_samples, warn_of
 from ..quantities.attributes import read_only
 from ..quantities.units import is_quantity
-from ..uncertainty.distribution import read_alike
+from ..uncertainty.distribution import notes_of_inputs, read_alike
 from ..uncertainty.distributions import Distribution, Interval, Normal, Uniform
 from ..uncertainty.finer import FinerModel
 from ..uncertainty.model import AnyModel, Model, function_of, range_hint
@@ -221,6 +221,7 @@ def fit(
             notes = _said_at(inputs, where, inputs.model, worked_back=True)
             notes += _said_within(inputs, one, {note.code for note in notes})
             notes += tuple(bare_angle_notes(inputs.rows, inputs.model.units))
+            notes += tuple(notes_of_inputs((row.name, row.reading.value) for row in inputs.rows))
             if dearer is not None:
                 # No figure rests on what the first model says at the answer of the finer one.
                 notes += tuple(

@@ -20,13 +20,13 @@ from ..messages.errors import (
     NoSolutionError,
     SuspectUnitsWarning,
 )
-from ..messages.warning import Note
+from ..messages.warning import AGREES, Note
 from ..quantities.attributes import OWN_UNIT, Shown, derived
 from ..quantities.refusals import LATERAL, must_be
 from ..quantities.strict_json import strict
 from ..quantities.tables import Cells, Part, Summary, as_sentence
 from ..quantities.units import shown, to_quantity
-from ..uncertainty.distribution import GivenUnit
+from ..uncertainty.distribution import GivenUnit, found_by
 from ..uncertainty.distributions import Normal
 from ..uncertainty.normal import score_of_coverage
 from .evidence import Observation
@@ -347,10 +347,23 @@ class Fit(SpeedsFound, Shown):
     @property
     def inputs(self) -> dict[str, Normal]:
         """Estimates by unknown, each a normal distribution within its bounds, as
-        ``uncertainty.propagate`` takes them.
+        ``uncertainty.propagate`` takes them; what was stated of the fit goes with them.
+
+        Where normal distributions with the standard errors do not describe the answer, as where
+        the model bends, it is a ``NoSolutionError`` (code "not_normal").
         """
         self._check_determined("inputs")
-        return {name: self._as_normal(name) for name in self.names}
+        against = "; ".join(note.sentence for note in _against_errors(self))
+        if against:
+            raise NoSolutionError(
+                "inputs are normal distributions with the standard errors, which do not describe "
+                f"this answer: {against}. In place of them give `posterior(model, unknowns, "
+                "observed, seed=1).inputs()`, with `Uniform(low, high)` of each unknown that has "
+                "no prior; they are joint samples, with no correlation beside them",
+                code="not_normal",
+            )
+        normals = {name: self._as_normal(name) for name in self.names}
+        return found_by("a fit", normals, notes_of(self))
 
     @property
     def consistent(self) -> bool | None:
@@ -487,6 +500,33 @@ def notes_of(found: Fit) -> Iterator[Note]:
         )
         open_ = Note(IllConditionedWarning, direction.sentence, advice, "undetermined")
         yield Note(None, direction.sentence) if direction.held_by_prior else open_
+    yield from _against_errors(found)
+    for name, one in found.residuals.items():
+        if (
+            not one.unit
+            and not one.is_prior
+            and max(abs(one.observed), abs(one.computed)) <= math.pi < abs(one.residual)
+        ):
+            degrees = f"'{math.degrees(one.observed):.4g} deg', '{math.degrees(one.sigma):.3g} deg'"
+            yield Note(
+                SuspectUnitsWarning,
+                f"{name} is observed as {one.observed:.6g} and computed as {one.computed:.6g}; "
+                "if it is an angle, the short way between them is round the circle: give it "
+                f"with its unit, such as `Normal({degrees})`",
+                "",
+                "bare_angle",
+            )
+    if "finer" in found.calls:
+        yield Note(
+            None,
+            f"the answer is that of the finer model, which was asked {found.calls['finer']} times, "
+            f"and the other model {found.calls['model']} times",
+        )
+    yield from found.model_notes
+
+
+def _against_errors(found: Fit) -> Iterator[Note]:
+    """What says that normal distributions with the standard errors do not describe the answer."""
     for name, side in found.at_bounds.items():
         inward = "above" if side == "low" else "below"
         sentence = (
@@ -523,28 +563,6 @@ def notes_of(found: Fit) -> Iterator[Note]:
             f"another answer fits about as well, with chi-squared {other.chi_squared:.4g} beside "
             f"{found.chi_squared:.4g}; the 95 percent intervals hold both",
         )
-    for name, one in found.residuals.items():
-        if (
-            not one.unit
-            and not one.is_prior
-            and max(abs(one.observed), abs(one.computed)) <= math.pi < abs(one.residual)
-        ):
-            degrees = f"'{math.degrees(one.observed):.4g} deg', '{math.degrees(one.sigma):.3g} deg'"
-            yield Note(
-                SuspectUnitsWarning,
-                f"{name} is observed as {one.observed:.6g} and computed as {one.computed:.6g}; "
-                "if it is an angle, the short way between them is round the circle: give it "
-                f"with its unit, such as `Normal({degrees})`",
-                "",
-                "bare_angle",
-            )
-    if "finer" in found.calls:
-        yield Note(
-            None,
-            f"the answer is that of the finer model, which was asked {found.calls['finer']} times, "
-            f"and the other model {found.calls['model']} times",
-        )
-    yield from found.model_notes
 
 
 def agreement(
@@ -567,7 +585,7 @@ def agreement(
     )
     chance = f"a misfit this large or larger has a chance of {text}"
     if p_value >= _WEAK:
-        return Note(None, f"the evidence agrees with itself: {chance}")
+        return Note(None, f"the evidence agrees with itself: {chance}", code=AGREES)
     if p_value >= CONTRADICTION:
         return Note(
             None,

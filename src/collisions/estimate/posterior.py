@@ -19,6 +19,7 @@ from ..messages.progress import reporter
 from ..messages.warning import ONE_ORDER, Note, notes_of_samples, warn_of
 from ..quantities.attributes import read_only
 from ..quantities.units import Input
+from ..uncertainty.distribution import notes_of_inputs
 from ..uncertainty.distributions import Distribution
 from ..uncertainty.finer import FinerModel
 from ..uncertainty.model import AnyModel, Model, function_of, range_hint, units_taken
@@ -476,6 +477,8 @@ class _Problem:
         if refused:
             notes = tuple(_ruled_out(note) for note in notes)
         notes += self.notes
+        stated = [*self.joint.inputs.items(), *((row.name, row.reading.value) for row in self.rows)]
+        notes += tuple(notes_of_inputs(stated))
         return Posterior(
             priors=dict(self.joint.inputs),
             observed={row.name: row.reading.value for row in self.rows},

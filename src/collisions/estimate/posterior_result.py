@@ -18,7 +18,7 @@ from ..quantities.formatting import KIND_OF, typeset
 from ..quantities.strict_json import strict
 from ..quantities.tables import Cells, Part, Summarized, Summary, as_sentence
 from ..quantities.units import rendered, shown
-from ..uncertainty.distribution import stated_in
+from ..uncertainty.distribution import found_by, notes_of_inputs, stated_in
 from ..uncertainty.distributions import Censored, Distribution, Normal, Samples, Uniform
 from ..uncertainty.normal import power_of_two
 from ..uncertainty.probability import holds
@@ -302,6 +302,7 @@ class Posterior(SpeedsFound, Summarized):
                 for note in notes
             )
         notes += *unanswered_notes({name: output}), *wrap_notes(wraps_of({name: output}))
+        notes += tuple(notes_of_inputs(arguments.items()))
         warn_of(notes)
         return replace(
             self,
@@ -313,16 +314,17 @@ class Posterior(SpeedsFound, Summarized):
 
     def inputs(self) -> dict[str, Samples]:
         """The joint samples of the unknowns, as ``uncertainty.propagate`` takes them, or
-        ``posterior`` as new priors.
+        ``posterior`` as new priors; what was stated of this posterior goes with them.
 
         Returns
         -------
         dict of Samples
             By unknown.
         """
-        return Samples.joint(
+        joint = Samples.joint(
             **{name: with_unit(self.draws[name], one.unit) for name, one in self.unknowns.items()}
         )
+        return found_by("a posterior", joint, notes_of(self))
 
     @property
     def found(self) -> tuple[str, ...]:

@@ -26,6 +26,8 @@ NO_ANSWER = frozenset({"refused_cases", "several_orders", "stuck_or_slid", "fric
 WORKED_BACK = "worked_back"
 # Of the statement that what comes in another order has no answer.
 ONE_ORDER = "one_order"
+# Of the statement that evidence agrees with itself.
+AGREES = "agrees"
 
 
 class Said(NamedTuple):

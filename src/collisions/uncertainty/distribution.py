@@ -5,7 +5,7 @@ their unit.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import FrozenInstanceError
 from typing import Any, ClassVar, TypeVar
 
@@ -14,6 +14,7 @@ import numpy as np
 from ..kernels.elementwise import FINITE, UNCHECKED
 from ..messages.errors import InputError, ShapeError, UnitsError
 from ..messages.marked import as_code
+from ..messages.warning import AGREES, Note
 from ..quantities.attributes import equal
 from ..quantities.formatting import SI_UNITS, Numbers, typeset
 from ..quantities.reading import ArgumentReader, is_whole
@@ -30,6 +31,8 @@ from ..quantities.units import (
     unit_as_written,
 )
 from .normal import both_tails
+
+_NAMED = 4  # inputs at most, beside what was stated of them
 
 
 class GivenUnit(str):
@@ -73,13 +76,15 @@ class Statement:
     ``_parts`` are what it was made of, by the names of the arguments; ``_derive`` takes them and
     sets all else. ``_range`` is the low, high and share that ``between`` was given; people read
     these in place of the parts that follow from them. ``source`` is what its number was worked out
-    from, "" where that does not say; two statements of the same numbers are equal whatever it is.
+    from, "" where that does not say, and ``notes`` are what was stated where it was found, such as
+    by a fit; two statements of the same numbers are equal whatever these are.
     """
 
-    __slots__ = ("_parts", "_range", "source", "unit")
+    __slots__ = ("_parts", "_range", "notes", "source", "unit")
 
     unit: str
     source: str
+    notes: tuple[Note, ...]
     _words: ClassVar[str]
     # Parts that are not in the unit of the quantity, and their own: of degrees of freedom, "".
     _part_units: ClassVar[Mapping[str, str]] = {}
@@ -90,7 +95,7 @@ class Statement:
     def _make(
         self, unit: str, given_range: tuple[float, float, float] | None = None, **parts: Any
     ) -> None:
-        self._set(unit=unit, source="", _parts=parts, _range=given_range)
+        self._set(unit=unit, source="", notes=(), _parts=parts, _range=given_range)
         self._derive(**parts)
 
     def _set(self, **values: Any) -> None:
@@ -116,7 +121,8 @@ class Statement:
         return hash((type(self), self.unit, *self._parts.values()))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return from_numbers, (type(self), self.unit, self._parts, self._range, self.source)
+        made_of = type(self), self.unit, self._parts, self._range, self.source, self.notes
+        return from_numbers, made_of
 
     def __repr__(self) -> str:
         shown = (
@@ -160,6 +166,9 @@ class Distribution(Statement):
     source : str
         What the mean of a ``Normal`` was worked out from, such as the dents measured by
         ``reconstruct.crush_energy``; "" where that is not known.
+    notes : tuple
+        What a fit or a posterior stated of it, whose inputs it is one of: a study of it states
+        that again.
     """
 
     __slots__ = ("kurtosis", "mean", "sd", "skewness", "support")
@@ -271,12 +280,43 @@ def from_numbers(
     parts: Mapping[str, Any],
     given_range: tuple[float, float, float] | None = None,
     source: str = "",
+    notes: tuple[Note, ...] = (),
 ) -> T:
     """An instance from SI numbers, which are not read again."""
     made = object.__new__(kind)
     made._make(unit, given_range, **parts)
-    made._set(source=source)
+    made._set(source=source, notes=notes)
     return made
+
+
+def found_by(study: str, found: Mapping[str, T], notes: Iterable[Note]) -> dict[str, T]:
+    """The statements that a study found, each with what the study stated, but for its evidence
+    agreeing with itself.
+    """
+    said = tuple(
+        note._replace(sentence=f"from {study}: {note.sentence}")
+        for note in notes
+        if note.code != AGREES
+    )
+    return {
+        name: from_numbers(type(one), one.unit, one._parts, one._range, one.source, said)
+        for name, one in found.items()
+    }
+
+
+def notes_of_inputs(inputs: Iterable[tuple[str, Any]]) -> Iterator[Note]:
+    """What was stated of the inputs of a study where they were found, each once."""
+    names: dict[tuple[str, str], list[str]] = {}
+    notes: dict[tuple[str, str], Note] = {}
+    for name, one in inputs:
+        for note in one.notes if isinstance(one, Statement) else ():
+            key = note.code, note.sentence
+            notes[key] = note
+            names.setdefault(key, []).append(name)
+    for key, note in notes.items():
+        study, _, sentence = note.sentence.partition(": ")
+        few = names[key] if len(names[key]) <= _NAMED else [*names[key][: _NAMED - 1], "others"]
+        yield note._replace(sentence=f"{study} ({', '.join(few)}): {sentence}")
 
 
 def stated_in(value: Statement, numbers: Numbers, kind: str) -> str:

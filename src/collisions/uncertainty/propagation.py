@@ -25,7 +25,7 @@ from ..quantities.units import has_unit, rendered, shown
 from .correction import Corrected, CorrectedOutput, corrected
 from .derivatives import PROBES, Local, differences, local_output, slopes
 from .designs import DESIGNS, MOST_DIMENSIONS, REPLICATES, Design
-from .distribution import GivenUnit, Statement, WithoutUnit
+from .distribution import GivenUnit, Statement, WithoutUnit, notes_of_inputs
 from .distributions import Distribution, Interval
 from .finer import FinerModel
 from .halved import Halved, widths_if_halved
@@ -183,7 +183,8 @@ def propagate(
         Cases had no answer, or a local method differs from the model; or an output looks like an
         angle that jumps, or has directions to all sides, so that its mean means nothing, or little.
     CollisionsWarning
-        What this library warned of while the model worked, once for each code. A warning of fewer
+        What this library warned of while the model worked, or of a fit or a posterior whose
+        ``inputs`` these are, once for each code. A warning of fewer
         than 0.5 percent of the cases (95 percent where it is that readings differ) is not raised
         and stands in ``statements`` alone; that cases have no answer is raised of any.
 
@@ -370,7 +371,7 @@ def _propagated(
         answered[name] = Bounds(name, output.unit, cases, cuts.get(name)) if intervals else output
     judged = count + sum(one.drawn for one in runs)
     count, failed = count + samples_run, failed + sum(one.failed for one in runs)
-    notes = _notes(method, runs, len(places), count, failed, whole)
+    notes = _notes(method, runs, len(places), count, failed, whole, stated)
     found = runs[0].corrected
     if found:
         notes = (*found.notes, *notes)
@@ -704,7 +705,7 @@ def _by_interval(model: Model, stated: dict[str, Any], correlation: Any) -> Prop
             [Local(name, unit, value, 0.0, 0.0, Shares({}, {}, {}, {})) for value in values],
         )
     run = Run(outputs, found.samples, found.failed, wrapped=found.wrapped)
-    notes = _notes("interval", [run], 1, found.samples, found.failed, model)
+    notes = _notes("interval", [run], 1, found.samples, found.failed, model, stated)
     return Propagation(
         "interval",
         stated,
@@ -717,10 +718,16 @@ def _by_interval(model: Model, stated: dict[str, Any], correlation: Any) -> Prop
 
 
 def _notes(
-    method: str, runs: Sequence[Run], places: int, count: int, failed: int, model: Model
+    method: str,
+    runs: Sequence[Run],
+    places: int,
+    count: int,
+    failed: int,
+    model: Model,
+    stated: Mapping[str, Any],
 ) -> tuple[Note, ...]:
     """What belongs with the figures: warnings of the model, cases left out, what a tolerance or a
-    local method missed.
+    local method missed, and what was stated of the inputs.
     """
     notes = [
         *notes_of_samples(model.noted),
@@ -768,6 +775,7 @@ def _notes(
         notes.append(Note(CollisionsWarning, sentence, code="interrupted", fields={"done": count}))
     wrapped = {name: where for run in reversed(runs) for name, where in run.wrapped.items()}
     notes += wrap_notes(wrapped)
+    notes += notes_of_inputs(stated.items())
     return tuple(notes)
 
 
