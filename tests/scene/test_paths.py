@@ -433,6 +433,21 @@ def test_a_number_that_is_not_given_yet_has_the_unit_of_what_it_is() -> None:
     assert found.answered == 32
 
 
+def test_why_cases_of_a_scene_have_no_answer_is_stated_once() -> None:
+    """Of speeds from -5 to 15 m/s a quarter part from the car that stands."""
+    with pytest.warns(col.OutOfRangeWarning, match="16 of 64 cases"):
+        found = propagate(
+            in_line(),
+            {"A.vx": Uniform("-5 m/s", "15 m/s")},
+            outputs=["impacts[0].a.delta_v"],
+            samples=64,
+            seed=1,
+        )
+    assert [one for one in found.statements if "separating" in one] == [
+        "16 of 64 cases (25 %): without an answer, as separating"
+    ]
+
+
 def test_a_study_without_an_answer_names_the_causes_by_their_number() -> None:
     one = {"Explorer.vx": Normal("20 m/s", "1 m/s")}
     asked = {"outputs": ["impacts[2].a.before.speed"], "samples": 64, "seed": 1}

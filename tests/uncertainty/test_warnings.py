@@ -87,6 +87,110 @@ def test_few_cases_without_an_answer_are_raised_all_the_same():
     ]
 
 
+def pushed_by(va, solver, **options):
+    """A goes at va into B, which goes at 8 m/s ahead of it."""
+    a, b = (one.replace(vx=speed, vy=0.0) for one, speed in ((A, va), (B, 8.0)))
+    return solver(a, b, 0.1, **options, on_failure="nan").b.delta_v
+
+
+PLACE = {"normal": 0.0, "point": (0.0, 0.0), "friction": 0.4}
+PARTING = {"separating": lambda va: va < 8.0}
+
+
+@pytest.mark.parametrize(
+    ("model", "causes"),
+    [
+        (lambda va: pushed_by(va, col.linear_central), PARTING),
+        (lambda va: pushed_by(va, col.oblique_central, normal=0.0, friction=0.4), PARTING),
+        (lambda va: pushed_by(va, col.eccentric, **PLACE), PARTING),
+        (lambda va: pushed_by(va, col.solve, **PLACE, tolerance=0.5), PARTING),
+        (lambda va: pushed_by(va, col.time_resolved, **PLACE, duration=0.1), PARTING),
+        # B leaves at 8 m/s, so A at va - 6.4 m/s, and e is (14.4 - va) / va.
+        (
+            lambda va: (
+                reconstruct.central(
+                    1500.0, 1200.0, va=va, vb=0.0, vb_after=8.0, on_failure="nan"
+                ).restitution
+            ),
+            {"not_separating": lambda va: va > 14.4, "contradictory": lambda va: va < 7.2},
+        ),
+        (
+            lambda va: (
+                reconstruct.planar(
+                    A.replace(vx=8.0),
+                    B.replace(vx=va, vy=0.0),
+                    normal=0.0,
+                    point=(0.0, 0.6),
+                    friction=0.0,
+                    restitution=0.5,
+                    on_failure="nan",
+                ).a.before.vx
+            ),
+            {"not_separating": lambda va: va < 8.0},
+        ),
+        (
+            lambda va: (
+                reconstruct.momentum(
+                    va - 8.0,
+                    1200.0,
+                    course_a=0.0,
+                    course_b=1.5,
+                    course_a_after=0.5,
+                    course_b_after=0.4,
+                    speed_a_after=5.0,
+                    speed_b_after=6.0,
+                    on_failure="nan",
+                ).speed_b
+            ),
+            {"not_positive": lambda va: va < 8.0},
+        ),
+    ],
+)
+def test_why_cases_have_no_answer_is_stated_with_on_failure_nan_too(model, causes):
+    """Each cause is of as many cases as it follows for by hand; a single call does not warn."""
+    found, caught = quiet(
+        lambda: propagate(
+            lambda va: {"answer": model(va), "va": va + 0.0},
+            {"va": Uniform(4.0, 20.0)},
+            samples=256,
+            seed=1,
+        )
+    )
+    va = found["va"].values
+    refused = {code: int(np.count_nonzero(where(va))) for code, where in causes.items()}
+    assert found.failed == sum(refused.values())
+    for code, count in refused.items():
+        said = f"{count} of 256 cases ({100 * count / 256:.3g} %): refused by a solver, as {code}"
+        assert said in found.statements
+    assert sum("refused by a solver" in one for one in found.statements) == len(causes)
+    assert [one.message.code for one in caught].count("failed_cases") == 1
+    assert "refused_cases" not in [one.message.code for one in caught]
+    _, caught = quiet(lambda: model(np.array([5.0, 10.0, 15.0])))
+    assert "refused_cases" not in [one.message.code for one in caught]
+
+
+def test_refused_cases_that_a_model_answers_itself_are_stated_and_not_raised():
+    """Cars that part have no delta-V, as the model says; and one that is called case by case."""
+
+    def model(va):
+        found = pushed_by(va, col.linear_central)
+        return {"delta_v": np.where(va < 8.0, 0.0, found)}
+
+    def looped(va):
+        return {"delta_v": np.array([pushed_by(float(one), col.linear_central) for one in va])}
+
+    inputs = {"va": Uniform(4.0, 20.0)}
+    found, caught = quiet(lambda: propagate(model, inputs, samples=256, seed=1))
+    assert not caught
+    count = int(np.count_nonzero(found["delta_v"].values == 0.0))
+    said = f"{count} of 256 cases ({100 * count / 256:.3g} %): refused by a solver, as separating"
+    assert said in found.statements
+    found, _ = quiet(lambda: propagate(looped, inputs, samples=256, seed=1))
+    assert found.failed == count
+    (said,) = (one for one in found.statements if "refused by a solver, as separating" in one)
+    assert said.startswith(f"{count} warnings from calls that were not given all cases as arrays")
+
+
 def test_one_output_by_itself_says_how_many_cases_it_leaves_out():
     """Half of a normal distribution has a mean of its own, sqrt(2 / pi), and no word said why."""
 

@@ -1,10 +1,11 @@
 """What is noted of a forward impact within a study: that an infinite friction made a contact stick
-that may have slid, and what its model leaves out.
+that may have slid, what its model leaves out, and why cases have no answer.
 """
 
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -13,6 +14,7 @@ from ..messages.errors import IllConditionedWarning
 from ..messages.warning import WORKED_BACK, in_study, state_of_study, warn_of_cases
 from ..reference import INTER_VEHICLE_FRICTION
 from .impact import Impact
+from .run import state_refusals
 
 # Models that a caller chose; ``solve`` chooses by a tolerance.
 _INSTANTS = ("linear_central", "oblique_central", "eccentric")
@@ -30,16 +32,19 @@ _LEFT_BY_TYRES = (
 )
 
 
-def noted(impact: Impact) -> Impact:
+def noted(impact: Impact, on_failure: Any = None) -> Impact:
     """The impact. Within ``propagate`` and the like its samples are noted that stick because of an
-    infinite friction, at a ratio at which contacts between vehicles slide; and within ``posterior``
-    and ``fit``, which work back through it, what its model leaves out.
+    infinite friction, at a ratio at which contacts between vehicles slide, and with
+    ``on_failure="nan"`` why samples have no answer; and within ``posterior`` and ``fit``, which
+    work back through it, what its model leaves out.
 
     Outside a study ``diagnose`` finds it: there a single impact is often tried with and without.
     """
     if not in_study():
         return impact
     inputs = impact.inputs
+    if on_failure == "nan":
+        state_refusals(impact.status)
     if inputs.model in _INSTANTS:
         rest = _LEFT_BY_TYRES if inputs.tyres else _LEFT_BY_PUSH if inputs.pushed else _LEFT
         state_of_study(f"{inputs.model} solved every case {rest}", WORKED_BACK)

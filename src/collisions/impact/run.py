@@ -36,7 +36,7 @@ from ..messages.errors import (
     placed,
 )
 from ..messages.progress import reporter
-from ..messages.warning import quietly, warn_of_cases
+from ..messages.warning import in_study, quietly, state_of_cases, warn_of_cases
 from ..quantities.attributes import read_only
 from ..quantities.refusals import must_be
 from ..quantities.tables import Sentences, said
@@ -54,6 +54,7 @@ from .time_resolved_inputs import (
     with_tyres,
 )
 
+_REFUSED_CASES = "refused_cases"
 _REFUSED = Answer(*[False if name == "sticks" else math.nan for name in Answer._fields])
 
 
@@ -288,11 +289,25 @@ def warn_of_refusals(status: Any, advice: str = "see .status, or `on_failure='ra
     }
     listed = ", ".join(f"{count} {label}" for label, count in kinds.items())
     text = f"{refused} of {status.size} cases were refused and are NaN ({listed}); {advice}"
-    parts = {
-        f"refused by a solver, as {Status(code).label}": status == code
-        for code in np.unique(status[status > Status.ENERGY_GAIN]).tolist()
+    warning = CollisionsWarning(text, code=_REFUSED_CASES, counts=kinds)
+    warn_of_cases(warning, _refused_by_kind(status))
+
+
+def state_refusals(status: Any) -> None:
+    """State of a study the refused cases of ``on_failure="nan"`` by their kind, without a
+    warning.
+    """
+    if in_study():
+        state_of_cases(_refused_by_kind(status), _REFUSED_CASES)
+
+
+def _refused_by_kind(status: Any) -> dict[str, Any]:
+    """What is said of a study where a solver refuses cases, with where each kind is."""
+    codes = np.unique(status)
+    return {
+        f"refused by a solver, as {Status(code).label}": np.equal(status, code)
+        for code in codes[codes > Status.ENERGY_GAIN].tolist()
     }
-    warn_of_cases(CollisionsWarning(text, code="refused_cases", counts=kinds), parts)
 
 
 _of_vehicle = attrgetter(*DOMAINS)

@@ -85,7 +85,8 @@ def linear_central(
     on_failure : {None, "raise", "nan"}, optional
         What to do with a case that cannot be answered. None: a single case raises; in a batch such
         cases are NaN with a status, and one warning counts them. "raise": the first one raises,
-        also in a batch. "nan": NaN with a status, without a warning.
+        also in a batch. "nan": NaN with a status, without a warning; ``propagate`` and the like
+        state how many cases were refused, and why.
     threads : int, optional
         Number of threads for a batch.
     progress : callable or True, optional
@@ -360,7 +361,8 @@ def eccentric(
         arguments = a, b, restitution, normal, point, tangential, law
         more = {"incomplete": incomplete, "outside_a": outside_a, "outside_b": outside_b}
         inputs = read_eccentric(arguments, duration, tyres_a, tyres_b, **more)
-        return noted(build(inputs, solve_inputs(ECCENTRIC, inputs, on_failure, threads, progress)))
+        found = build(inputs, solve_inputs(ECCENTRIC, inputs, on_failure, threads, progress))
+        return noted(found, on_failure)
     outside = None if outside_a is outside_b is None else (outside_a, outside_b)
     return _solve(
         ECCENTRIC,
@@ -547,7 +549,8 @@ def time_resolved(
     }
     others |= {"tyres_a": tyres_a, "tyres_b": tyres_b}
     inputs = read_contact_time(a, b, restitution, normal, point, friction, spring | others)
-    return noted(build(inputs, solve_inputs(TIME_RESOLVED, inputs, on_failure, threads, progress)))
+    found = build(inputs, solve_inputs(TIME_RESOLVED, inputs, on_failure, threads, progress))
+    return noted(found, on_failure)
 
 
 @hinted
@@ -723,7 +726,7 @@ def solve(
     arguments = a, b, restitution, normal, point, (friction, impulse_ratio, critical_fraction), law
     more = {"incomplete": incomplete, "outside_a": outside_a, "outside_b": outside_b}
     inputs = read_for_solve(arguments, tolerance, duration, drag, tyres_a, tyres_b, **more)
-    return noted(solved(inputs, on_failure, threads, progress))
+    return noted(solved(inputs, on_failure, threads, progress), on_failure)
 
 
 def _solve(
@@ -763,4 +766,5 @@ def _solve(
                 return noted(build(inputs, answer))
     arguments = a, b, restitution, normal, point, tangential, law
     inputs = read_inputs(model.name, arguments, (), (), incomplete, *(outside or (None, None)))
-    return noted(build(inputs, solve_inputs(model, inputs, on_failure, threads, progress)))
+    found = build(inputs, solve_inputs(model, inputs, on_failure, threads, progress))
+    return noted(found, on_failure)

@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 import sys
 import warnings
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import Any, NamedTuple, TypeAlias
@@ -20,6 +20,8 @@ from .marked import plain
 # A warning of fewer samples than this share is stated with the result, but not raised, unless it
 # has a share of its own.
 SELDOM = 0.005
+# A share that none exceeds: what is stated with the number of samples, and never raised.
+STATED = 2.0
 # Codes of the warnings that say why cases have no answer.
 NO_ANSWER = frozenset({"refused_cases", "several_orders", "stuck_or_slid", "friction_differs"})
 # Of a statement for those alone who work back through a model from what was observed.
@@ -34,8 +36,8 @@ class Said(NamedTuple):
     """A warning while a model was called: what it says without its numbers, and where it holds.
 
     ``where`` is a boolean for each case of the solver's own call; None for a call of plain numbers.
-    It is raised where it is of this share of all samples at ``least``; at 0, always, and at
-    infinity never, it is said of the study and not of cases.
+    It is raised where it is of this share of all samples at ``least``, and never above 1; at 0,
+    always, and at infinity never, it is said of the study and not of cases.
     """
 
     sentence: str
@@ -133,6 +135,18 @@ def state_of_study(sentence: str, code: str) -> None:
         said.append(Said(sentence, CollisionsWarning, code, None, math.inf))
 
 
+def state_of_cases(parts: Mapping[str, Any], code: str) -> None:
+    """State something of some cases of a study, with their number and without a warning, in parts
+    as ``warn_of_cases`` has them; nothing outside a study.
+    """
+    said = _sampling.get()
+    if said is not None:
+        said += (
+            Said(sentence, CollisionsWarning, code, where, STATED)
+            for sentence, where in parts.items()
+        )
+
+
 def warn_of_samples(warning: CollisionsWarning) -> None:
     """Note what is said of the samples of a study together, not of some of them."""
     said = _sampling.get()
@@ -154,9 +168,10 @@ def quietly(said: list[Said] | None = None) -> Iterator[None]:
 
 
 @contextmanager
-def of_some(where: Any) -> Iterator[None]:
+def of_some(where: Any, but: Collection[str] = ()) -> Iterator[None]:
     """Within this context what is noted of a study is of these of all cases: of those among them
-    that it is of, if it was said with a number for each of them.
+    that it is of, if it was said with a number for each of them. What has one of the codes ``but``
+    is dropped.
     """
     said = _sampling.get()
     if said is None:
@@ -169,6 +184,8 @@ def of_some(where: Any) -> Iterator[None]:
     finally:
         _sampling.reset(token)
         for one in mine:
+            if one.code in but:
+                continue
             whole = np.array(where)
             own = _by_case(one.where, int(np.count_nonzero(where)))
             if own is not None:
@@ -227,7 +244,7 @@ def notes_of_samples(calls: Calls, *, worked_back: bool = False) -> tuple[Note, 
         at_most = 1.0 if uncounted else cases / total
         of = f"{cases} of {total} cases ({100.0 * at_most:.3g} %): "
         fields: dict[str, Any] = {"cases": cases, "share": at_most}
-        if not 0.0 < least <= 1.0:
+        if least in (0.0, math.inf):
             of, fields = "", {}
         elif uncounted and cases < total:
             of = _of_uncounted(cases, uncounted, total)

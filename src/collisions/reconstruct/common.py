@@ -14,7 +14,7 @@ import numpy as np
 from ..impact.impact import Impact, answer_of, found_by, solved
 from ..impact.inputs import Inputs, body_numbers, first_case
 from ..impact.reconstruction import Reconstruction, found_from, origin_where_answered
-from ..impact.run import check_options, error_of, warn_of_refusals
+from ..impact.run import check_options, error_of, state_refusals, warn_of_refusals
 from ..kernels.contact_laws import RULES
 from ..kernels.eccentric import eccentric
 from ..kernels.elementwise import FINITE, POSITIVE, restitution_domain
@@ -336,7 +336,10 @@ def finish(
     check_options(on_failure)
     if not isinstance(status, np.ndarray):
         raise_or_warn(status, on_failure, lambda index: refusal())
-        return run_forward(inputs_of, status, origin, on_failure)
+        found = run_forward(inputs_of, status, origin, on_failure)
+        if status == Status.OK:
+            raise_or_warn(found.status, on_failure, lambda index: refusal())
+        return found
     found = run_forward(inputs_of, status, origin, "nan")
 
     def refusal_at(index: tuple[int, ...]) -> CollisionsError:
@@ -416,9 +419,12 @@ def raise_or_warn(
     status: Any, on_failure: Any, error: Callable[[tuple[int, ...]], CollisionsError]
 ) -> None:
     """Raise or warn about refused cases; ``error`` gives that of the case at an index, () if there
-    is only one.
+    is only one. With "nan" they are stated of a study.
     """
-    if on_failure == "nan" or not np.any(status > Status.ENERGY_GAIN):
+    if not np.any(status > Status.ENERGY_GAIN):
+        return
+    if on_failure == "nan":
+        state_refusals(status)
         return
     if not isinstance(status, np.ndarray):
         raise error(())

@@ -21,7 +21,7 @@ from ..messages.errors import (
     Status,
     placed,
 )
-from ..messages.warning import of_some
+from ..messages.warning import NO_ANSWER, of_some
 from ..quantities.settings import in_si
 from ..quantities.tables import Sentences
 from ..quantities.units import texts_of
@@ -1083,10 +1083,11 @@ class Followed:
             options["tolerance"] = 0.0 if contact.tolerance is None else numbers(contact.tolerance)
         if not self.single:
             options["on_failure"] = "nan"
-        # Of a study, what is warned of is noted of the cases that come to this contact now.
+        # Of a study, what is warned of is noted of the cases that come to this contact now; which
+        # of them have no answer the run says itself.
         cases = np.isin(np.arange(self.count), which)
         try:
-            with in_si(), of_some(cases):
+            with in_si(), of_some(cases, but=NO_ANSWER):
                 found: Impact = solver(a, b, numbers(contact.restitution), **options)
         except CollisionsError as error:
             where = f"contacts[{rule}], {contact.a} and {contact.b} at {float(time[0]):.4g} s"
