@@ -303,10 +303,10 @@ def state_refusals(status: Any) -> None:
 
 def _refused_by_kind(status: Any) -> dict[str, Any]:
     """What is said of a study where a solver refuses cases, with where each kind is."""
-    codes = np.unique(status)
+    status = np.asarray(status)
     return {
-        f"refused by a solver, as {Status(code).label}": np.equal(status, code)
-        for code in codes[codes > Status.ENERGY_GAIN].tolist()
+        f"refused by a solver, as {Status(code).label}": status == code
+        for code in np.unique(status[status > Status.ENERGY_GAIN]).tolist()
     }
 
 
