@@ -2,6 +2,7 @@
 from its printed digits.
 """
 
+import decimal
 import math
 import re
 import sys
@@ -9,6 +10,7 @@ import warnings
 from dataclasses import replace
 from operator import attrgetter
 
+import mpmath
 import numpy as np
 import pytest
 
@@ -381,35 +383,32 @@ def blocks(text):
 
 
 def worked_out(formula, degrees):
-    """What somebody gets who keys a printed formula in, number by number."""
-    formula = re.sub(r"([\d.]+) deg", r"(\1 * degree)", formula)
-    turned = math.degrees if degrees else float
-    names = {
-        "abs": abs,
-        "sqrt": math.sqrt,
-        "cos": math.cos,
-        "sin": math.sin,
-        "degree": math.pi / 180,
-    }
-    return eval(
-        formula, {"__builtins__": {}}, {**names, "atan2": lambda y, x: turned(math.atan2(y, x))}
-    )
+    """What somebody gets who keys a printed formula in, number by number, in 40 digits."""
+    formula = re.sub(r"(?<![\w.])(\d+(?:\.\d+)?)", r"number('\1')", formula)
+    formula = re.sub(r"(number\('[\d.]+'\)) deg", r"(\1 * degree)", formula)
+    with mpmath.workdps(40):
+        degree = mpmath.pi / 180
+        names = {name: getattr(mpmath, name) for name in ("sqrt", "cos", "sin")}
+        names |= {"abs": abs, "number": mpmath.mpf, "degree": degree}
+        names["atan2"] = lambda y, x: mpmath.atan2(y, x) / (degree if degrees else 1)
+        return +eval(formula, {"__builtins__": {}}, names)
 
 
 def gives(found, printed, formula):
-    """Whether a number, rounded like a printed one, is that; an exact number of few figures stands
-    for four.
+    """Whether a number, rounded half up like a printed one, is that; an exact number of few figures
+    stands for four.
     """
     value, decimals = float(printed), len(printed.partition(".")[2])
     if value == 0.0:
         # Four figures of the largest number of the line.
-        half = 5e-4 * max(map(float, NUMBER.findall(formula)))
-    elif decimals < 2 and len(printed.strip("-0.").replace(".", "")) < 4:
-        half = 5e-4 * abs(value)
-    else:
-        half = 0.5 * 10.0**-decimals
-    # Rounding of the sum here, for what is just between two numbers.
-    return abs(found - value) <= half * (1.0 + 1e-9)
+        return abs(found) <= 5e-4 * max(map(float, NUMBER.findall(formula)))
+    if decimals < 2 and len(printed.strip("-0.").replace(".", "")) < 4:
+        return abs(found - value) <= 5e-4 * abs(value)
+    # In 30 digits the rounding of 40 is gone, for what is just between two numbers.
+    with mpmath.workdps(40):
+        keyed = decimal.Decimal(mpmath.nstr(mpmath.mpf(found), 30))
+    last = decimal.Decimal(1).scaleb(-decimals)
+    return keyed.quantize(last, decimal.ROUND_HALF_UP) == decimal.Decimal(printed)
 
 
 def check_lines(text):
@@ -623,6 +622,22 @@ def test_a_wrong_line_would_be_seen():
     assert wrong != text
     with pytest.raises(AssertionError):
         check_lines(wrong)
+
+
+@pytest.mark.parametrize(
+    ("mass", "line"),
+    [
+        # Halves of 214,973 and of 214,975: to even numbers, both would be 107486 or 107488.
+        (2149.73, "1 / 2 * 2149.73 * 10**2\n      = 107487 J"),
+        (2149.75, "1 / 2 * 2149.75 * 10**2\n      = 107488 J"),
+    ],
+)
+def test_a_half_is_rounded_up_as_a_calculator_does(mass, line):
+    impact = col.linear_central(col.Vehicle(mass=mass, vx=10.0), col.Vehicle(mass=1000.0), 0.2)
+    text = explain(impact, form="text", units="si")
+    assert line in text
+    assert "numbers cancel" not in text
+    check_lines(text)
 
 
 def test_example_1():

@@ -139,11 +139,11 @@ def explain(
     The working prints a number in full if six figures hold it, else to four figures (with all that
     stand before the decimal point; small speeds, angles, lengths and ratios have two decimals more
     than an answer). Where a line needs more figures than that to give the result printed below it,
-    its numbers have more: keyed into a pocket calculator as printed, and rounded, every line gives
-    its result; where one cannot, the page says so. The answers at the end are rounded: speeds to
-    0.1 km/h, 0.1 mph or 0.01 m/s, angles to 1 degree or 0.01 rad, yaw rates to 1 deg/s or 0.01
-    rad/s, restitution to 0.01, impulse ratios to 0.001, impulses and energies to three figures; or
-    to two figures of their standard deviation where that is known.
+    its numbers have more: keyed into a pocket calculator as printed, and rounded, a half up, every
+    line gives its result; where one cannot, the page says so. The answers at the end are rounded:
+    speeds to 0.1 km/h, 0.1 mph or 0.01 m/s, angles to 1 degree or 0.01 rad, yaw rates to 1 deg/s or
+    0.01 rad/s, restitution to 0.01, impulse ratios to 0.001, impulses and energies to three
+    figures; or to two figures of their standard deviation where that is known.
 
     Parameters
     ----------

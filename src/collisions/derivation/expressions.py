@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
+from decimal import ROUND_HALF_UP, Context, Decimal
 from functools import cache
 from typing import NamedTuple
 
@@ -18,6 +19,10 @@ _ZERO_OF_OTHERS = 1e-10
 _FIGURES = 4
 _EXACT = 1e-9  # relative: a number this near to one of six figures is that number
 
+# Printed numbers are worked out in decimals, as a pocket calculator has them: in binary a half may
+# come out below itself, and be rounded down. What has no value there is NaN.
+CALCULATOR = Context(prec=40, rounding=ROUND_HALF_UP, traps=[])
+_NO_WORTH = Decimal("nan")
 _FUNCTIONS: dict[str, Callable[[float], float]] = {
     "sqrt": math.sqrt,
     "abs": abs,
@@ -96,9 +101,14 @@ class System(Numbers):
         near = abs(float(exact) - number) <= _EXACT * 10.0 ** -max(more - 4, 0) * abs(number)
         if near and len(exact) <= 9 and "e" not in exact:
             return exact
-        return with_decimals(number, _decimals(number, least) + more)
+        decimals = _decimals(number, least) + more
+        # A half is rounded up, also where it is one but for the rounding of floats.
+        finer = Decimal(f"{number:.13g}")
+        if finer.as_tuple().exponent == -decimals - 1:
+            return f"{finer.quantize(Decimal((0, (1,), -decimals)), context=CALCULATOR):f}"
+        return with_decimals(number, decimals)
 
-    def half_unit(self, value: float, kind: str, size: float) -> float:
+    def half_unit(self, value: float, kind: str, size: float) -> Decimal:
         """Half a unit, as printed, of the last of the figures that the working promises of this
         number.
 
@@ -109,7 +119,8 @@ class System(Numbers):
             promised = _decimals(size * scale, None)
         else:
             promised = _decimals(value * scale, self._decimals_of(kind))
-        return 0.5 * 10.0 ** -max(len(self.working(value, kind).partition(".")[2]), promised)
+        last = max(len(self.working(value, kind).partition(".")[2]), promised)
+        return Decimal((0, (5,), -last - 1))
 
 
 @cache
@@ -155,7 +166,7 @@ class Written(NamedTuple):
 
     text: str
     rank: int
-    worth: float = math.nan
+    worth: Decimal = _NO_WORTH
     unit: Unit = NO_UNIT
 
     def within(self, rank: int, pen: Pen) -> str:
@@ -181,7 +192,7 @@ class Written(NamedTuple):
             times = rf" \cdot \frac{{1}}{{{number}}}" if divides else rf" \cdot {number}"
         else:
             times = f" / {number}" if divides else f" * {number}"
-        worth = self.worth / float(number) if divides else self.worth * float(number)
+        worth = self.worth / Decimal(number) if divides else self.worth * Decimal(number)
         return Written(self.within(_PRODUCT, pen) + times, _PRODUCT, worth, unit)
 
 
@@ -261,7 +272,8 @@ class Literal(Expression):
         super().__init__(float(value), abs(value))
 
     def write(self, pen: Pen) -> Written:
-        return Written(f"{self.value:g}", SUM if self.value < 0.0 else ATOM, worth=self.value)
+        text = f"{self.value:g}"
+        return Written(text, SUM if self.value < 0.0 else ATOM, Decimal(text))
 
 
 def _expression(value: Expression | float) -> Expression:
@@ -279,7 +291,8 @@ class Sum(Expression):
         left, right = self.left.write(pen), self.right.write(pen)
         right = right.converted(left.unit, pen)
         text = f"{left.text} {'+' if self.sign > 0.0 else '-'} {right.within(_PRODUCT, pen)}"
-        return Written(text, SUM, left.worth + self.sign * right.worth, left.unit)
+        worth = left.worth + right.worth if self.sign > 0.0 else left.worth - right.worth
+        return Written(text, SUM, worth, left.unit)
 
 
 class Product(Expression):
@@ -314,7 +327,7 @@ class Quotient(Expression):
             text = rf"\frac{{{over.text}}}{{{under.text}}}"
         else:
             text = f"{over.within(_PRODUCT, pen)} / {under.within(_POWER, pen)}"
-        worth = over.worth / under.worth if under.worth else math.nan
+        worth = over.worth / under.worth if under.worth else _NO_WORTH
         return Written(text, _PRODUCT, worth, over.unit.times(under.unit, -1))
 
 
@@ -370,12 +383,14 @@ class Function(Expression):
         text = latex if pen.latex else f"{self.name}({inner.text})"
         if self.name == "abs":
             return inner._replace(text=text, rank=ATOM, worth=abs(inner.worth))
-        return Written(text, ATOM, math.sqrt(max(inner.worth, 0.0)), NO_UNIT.times(inner.unit, 0.5))
+        worth = max(inner.worth, Decimal(0)).sqrt()
+        return Written(text, ATOM, worth, NO_UNIT.times(inner.unit, 0.5))
 
     def _of_angle(self, pen: Pen) -> Written:
         degrees = pen.system is not None and pen.system.label("angle") == "deg"
         inner = self.inner.write(replace(pen, marked=True) if degrees else pen)
-        worth = _FUNCTIONS[self.name](math.radians(inner.worth) if degrees else inner.worth)
+        angle = float(inner.worth)
+        worth = _in_decimals(_FUNCTIONS[self.name](math.radians(angle) if degrees else angle))
         if not pen.latex:
             text = f"{self.name}({inner.text})"
         elif degrees and inner.rank == ATOM:
@@ -400,7 +415,13 @@ class Direction(Expression):
         )
         text = f"{name}{left}{y.text}, {x.text}{right}"
         unit = NO_UNIT if pen.system is None else pen.system.unit_of("angle")
-        return Written(text, _POWER, math.atan2(y.worth + 0.0, x.worth) * unit.scale, unit)
+        angle = math.atan2(float(y.worth) + 0.0, float(x.worth))
+        return Written(text, _POWER, _in_decimals(angle * unit.scale), unit)
+
+
+def _in_decimals(number: float) -> Decimal:
+    """What a calculator has for a float, which is 0.5 for the sine of 30 degrees."""
+    return Decimal(f"{number:.15g}")
 
 
 ZERO, ONE = Literal(0.0), Literal(1.0)

@@ -8,12 +8,13 @@ import math
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from decimal import Decimal, localcontext
 
 from ..messages.errors import InternalError
 from ..quantities.document import Document
 from ..quantities.formatting import clock, typeset
 from ..quantities.printed_tables import Part, in_markdown, ruled
-from .expressions import Direction, Expression, Pen, System, is_zero
+from .expressions import CALCULATOR, Direction, Expression, Pen, System, is_zero
 from .symbols import Symbol
 
 # The most figures a line may add to those of the working; with them it has every digit of a float.
@@ -224,14 +225,15 @@ class Page:
         """
         for more in range(_MOST + 1):
             (p, a, b), (q, c, d) = (
-                [float(self.system.figures(number, more=more)) for number in row] for row in rows
+                [Decimal(self.system.figures(number, more=more)) for number in row] for row in rows
             )
-            solved = ((p * d - q * b) / (a * d - b * c), (a * q - c * p) / (a * d - b * c))
-            if all(
-                self._comes_to(one, by.value, by.kind, by.size)
-                for one, by in zip(solved, unknowns, strict=True)
-            ):
-                return more
+            with localcontext(CALCULATOR):
+                solved = ((p * d - q * b) / (a * d - b * c), (a * q - c * p) / (a * d - b * c))
+                if all(
+                    self._comes_to(one, by.value, by.kind, by.size)
+                    for one, by in zip(solved, unknowns, strict=True)
+                ):
+                    return more
         return 0
 
     def text(self) -> Document:
@@ -272,7 +274,8 @@ class Page:
             self.stress(difference)
 
     def _in_symbols(self, formula: Expression) -> str:
-        return formula.write(Pen(self.latex)).text
+        with localcontext(CALCULATOR):
+            return formula.write(Pen(self.latex)).text
 
     def _in_numbers(
         self, sides: Sequence[tuple[Expression, float]], kind: str, size: float
@@ -282,11 +285,13 @@ class Page:
         """
         for more in (*range(_MOST + 1), 0):
             pen = Pen(self.latex, self.system, more)
-            found = [side.write(pen).converted(self.system.unit_of(kind), pen) for side, _ in sides]
-            fits = all(
-                self._comes_to(one.worth, value, kind, size)
-                for one, (_, value) in zip(found, sides, strict=True)
-            )
+            unit = self.system.unit_of(kind)
+            with localcontext(CALCULATOR):
+                found = [side.write(pen).converted(unit, pen) for side, _ in sides]
+                fits = all(
+                    self._comes_to(one.worth, value, kind, size)
+                    for one, (_, value) in zip(found, sides, strict=True)
+                )
             if fits:
                 break
         for one, number, other in pen.conversions:
@@ -295,14 +300,16 @@ class Page:
             )
         return [one.text for one in found], fits
 
-    def _comes_to(self, worth: float, value: float, kind: str, size: float) -> bool:
-        """Whether the value of printed numbers, rounded, is the number printed for a value."""
+    def _comes_to(self, worth: Decimal, value: float, kind: str, size: float) -> bool:
+        """Whether the value of printed numbers, rounded half up, is the number printed for a
+        value.
+        """
         if not math.isfinite(value):
             return True  # "infinite" and "not known" promise no figures
-        printed = float(self.system.working(value, kind))
-        # A little more than half a unit, for the rounding of a value midway between two printed
-        # numbers.
-        return abs(worth - printed) <= self.system.half_unit(value, kind, size) * (1.0 + 1e-9)
+        printed = Decimal(self.system.working(value, kind))
+        half = self.system.half_unit(value, kind, size)
+        away = printed - worth if printed < 0 else worth - printed
+        return -half <= away < half and (away > -half or printed != 0)
 
     def _lines(
         self,

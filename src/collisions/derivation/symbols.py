@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from decimal import Decimal
 from functools import cache, cached_property
 from typing import Any
 
@@ -53,7 +54,7 @@ class Symbol(Expression):
             return Written(self.latex if pen.latex else self.text, ATOM)
         printed = pen.system.working(self.value, self.kind, pen.more)
         rank = SUM if printed.startswith("-") else ATOM
-        worth = float(printed) if math.isfinite(self.value) else self.value
+        worth = Decimal(printed if math.isfinite(self.value) else self.value)
         if pen.marked and self.kind == "angle":
             printed += r"^\circ" if pen.latex else f" {pen.system.label(self.kind)}"
         return Written(printed, rank, worth, pen.system.unit_of(self.kind))
