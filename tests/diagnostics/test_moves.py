@@ -96,8 +96,22 @@ def test_tyres_given_to_a_diagnosis_are_those_of_left_out():
     # Wheels that roll take less than those that slide.
     assert move.share < by_name(slow, duration=0.08)["tyres"].share
     alone = diagnose(slow, tyres_b=tyres["tyres_b"])
-    assert {one.vehicle for one in alone if one.code == "tyre_impulse"} == {"b"}
-    assert col.left_out(slow, tyres_b=tyres["tyres_b"]).a.tyre_impulse_bound == 0.0
+    (of_a,) = (one for one in alone if (one.code, one.vehicle) == ("tyre_impulse", "a"))
+    assert "with a drag of 0.7" in of_a.sentence
+    (move,) = (move for move in alone.moves if move.name == "tyres")
+    assert move.what == "tyres of A sliding 0.1 s, drag 0.7, others as given"
+    bound = col.left_out(slow, tyres_b=tyres["tyres_b"]).a.tyre_delta_v_bound
+    assert bound == pytest.approx(0.7 * 9.80665 * 0.1, rel=1e-12)
+    (instant,) = (
+        one
+        for one in diagnose(
+            col.reconstruct.planar(slow.a.after, slow.b.after, restitution=0.15, **CONTACT),
+            tyres_b=tyres["tyres_b"],
+        )
+        if one.code == "instant"
+    )
+    words = "the tyres of B as given and those of A that slide with a drag of 0.7"
+    assert words in instant.sentence
 
 
 def test_a_reconstruction_says_what_the_tyres_given_do_to_it():
@@ -147,7 +161,9 @@ def test_each_model_has_what_it_can_be_moved_by():
     oblique = col.oblique_central(A.replace(yaw_rate=0.0), B, 0.1, normal=0.0, impulse_ratio=0.2)
     assert set(by_name(oblique)) == {"normal", "restitution", "impulse_ratio", "tyres"}
     tyres = Tyres(0.7, 0.2, 2.7, 1.5)
-    assert "tyres" not in by_name(impact(duration=0.1, tyres_a=tyres))
+    assert "tyres" not in by_name(impact(duration=0.1, tyres_a=tyres, tyres_b=tyres))
+    other = by_name(impact(duration=0.1, tyres_a=tyres))["tyres"]
+    assert other.what == "tyres of B sliding 0.1 s, drag 0.7"
     stuck = by_name(impact(friction=math.inf))["friction"]
     assert stuck.what == "friction 0.55, not sticking"
     timed = col.time_resolved(A, B, 0.15, **CONTACT, duration=0.1)

@@ -18,7 +18,7 @@ import pytest
 
 import collisions as col
 from collisions.impact.left_out import LeftOut, LeftOutVehicle
-from collisions.travel import GRAVITY
+from collisions.travel import GRAVITY, Tyres
 from scripts import benchmarks
 from strategies import other_registry
 
@@ -93,6 +93,55 @@ def test_locked_wheels_in_a_rear_end_impact(speed, share):
     assert found.b.displacement_x == pytest.approx(0.1 * 0.7 * passed * speed, rel=1e-8)
     assert found.a.displacement_y == found.b.displacement_y == found.contact_slide == 0.0
     assert found.residual_crush == pytest.approx(found.a.displacement_x - found.b.displacement_x)
+
+
+def test_tyres_that_one_vehicle_lacks_are_left_out():
+    """A rolls, B slides forward: half of what its tyres take is shared by the contact. A wall has
+    no tyres, and where both were given, nothing is left out.
+    """
+    a, b = (
+        col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=x, y=0.0, heading=0.0, vx=vx)
+        for x, vx in ((-2.2, 3.0), (2.2, 0.0))
+    )
+    rolling = Tyres(0.7, 0.0, 2.7, 1.5)
+    contact = {"normal": 0.0, "point": (0.0, 0.0), "friction": 0.5, "duration": 0.1}
+
+    def found(b=b, **tyres):
+        impact = col.eccentric(a, b, 0.3, **contact, tyres_a=rolling, **tyres)
+        return col.left_out(impact), col.diagnose(impact)
+
+    left, findings = found()
+    assert left.drag == 0.7
+    assert left.a.tyre_impulse_bound == left.a.tyre_impulse == 0.0
+    assert left.b.tyre_impulse_bound == pytest.approx(1500.0 * MOST)
+    assert left.b.tyre_share_bound == pytest.approx(MOST / 1.95)
+    assert left.a.tyre_delta_v == pytest.approx(0.5 * MOST)
+    assert left.b.tyre_delta_v == pytest.approx(0.5 * MOST)
+    assert [one.vehicle for one in findings if one.code == "tyre_impulse"] == ["b"]
+    wall = col.Vehicle.barrier().replace(x=2.2, y=0.0, heading=0.0)
+    for none_left, findings in (found(tyres_b=rolling), found(b=wall)):
+        assert none_left.drag == none_left.b.tyre_impulse_bound == none_left.a.tyre_share == 0.0
+        assert "tyre_impulse" not in findings.measured
+    page = " ".join(
+        col.report(col.eccentric(a, b, 0.3, **contact, tyres_a=rolling), form="markdown").split()
+    )
+    assert "The tyres of B were not given, and do not act." in page
+    assert "| B | delta-V from its own tyres, upper bound | 0.69 m/s (35 percent) |" in page
+    assert "| A | delta-V from its own tyres" not in page
+    assert "| A | change of delta-V by the tyres of B | 0.34 m/s (18 percent) |" in page
+
+
+def test_a_contact_in_time_without_the_tyres_of_one_vehicle():
+    a, b = (
+        col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=x, y=0.0, heading=0.0, vx=vx)
+        for x, vx in ((-2.2, 3.0), (2.2, 0.0))
+    )
+    rolling = Tyres(0.7, 0.0, 2.7, 1.5)
+    contact = {"normal": 0.0, "point": (0.0, 0.0), "friction": 0.5, "duration": 0.1}
+    impact = col.time_resolved(a, b, 0.3, **contact, tyres_a=rolling)
+    assert [each.vehicle for each in col.diagnose(impact) if each.code == "tyre_impulse"] == ["b"]
+    slid = col.time_resolved(a, b, 0.3, **contact, drag=0.3)
+    assert "tyre_impulse" not in col.diagnose(slid).measured
 
 
 def test_tyres_of_one_vehicle_are_shared_by_the_contact():

@@ -221,16 +221,49 @@ def test_what_was_given_is_shown_and_a_record_finds_it_again():
         1100, 950, va="80 km/h", vb=0.0, energy_loss="105 kJ", duration="100 ms", drag_b=0.7
     )
     origin = impact.reconstruction
-    assert origin.known == ("va", "vb", "energy_loss", "contact_duration", "drag_a", "drag_b")
-    assert (origin.duration, origin.drag_a, origin.drag_b) == (0.1, 0.0, 0.7)
+    assert origin.known == ("va", "vb", "energy_loss", "contact_duration", "drag_b")
+    assert (origin.duration, origin.drag_a, origin.drag_b) == (0.1, None, 0.7)
+    assert "none (A) and 0.70 (B)" in " ".join(col.explain(impact, form="text").split())
     for page, duration in ((col.explain(impact), "0.1 s"), (col.report(impact), "100 ms")):
         assert "duration of the contact with its tyres" in page
         assert duration in page
         assert "0.7" in page
-    assert not impact.statements
+    (sentence,) = impact.statements
+    assert sentence.startswith("found without the tyres of vehicle A: of delta-V")
     again = col.Impact.from_dict(json.loads(json.dumps(impact.to_dict())))
     assert again == impact
     col.report(again)
+
+
+def test_what_the_tyres_of_a_vehicle_without_a_drag_would_do_is_said():
+    """Both slide forward: an impulse J on B moves that of the contact by J m/m_B, m the reduced
+    mass, as restitution still ends it.
+    """
+    known = {"va": 4.0, "vb": 0.0, "vb_after": 2.2, "duration": 0.12}
+    one = reconstruct.central(1500, 1300, **known, drag_a=0.7)
+    change = 0.7 * 9.80665 * 0.12 * 1500.0 / (1500.0 + 1300.0)
+    left = col.left_out(one)
+    assert left.duration == 0.12
+    assert left.a.tyre_delta_v_bound == 0.0
+    assert left.b.tyre_delta_v_bound == pytest.approx(0.7 * 9.80665 * 0.12, rel=1e-12)
+    assert left.a.tyre_delta_v == pytest.approx(change * 1300.0 / 1500.0, rel=1e-6)
+    (sentence,) = one.statements
+    share = max(left.a.tyre_share, left.b.tyre_share)
+    assert "without the tyres of vehicle B" in sentence
+    assert f"leaves out about {100.0 * share:.0f} percent if they slide" in sentence
+    assert "give `drag_b=`, which is 0 where its wheels roll" in sentence
+    found = {each.code: each for each in col.diagnose(one)}
+    assert found["instant"].sentence == sentence
+    assert found["tyre_impulse"].vehicle == "b"
+    for rolls in (0.0, 0.7):
+        both = reconstruct.central(1500, 1300, **known, drag_a=0.7, drag_b=rolls)
+        assert both.statements == ()
+        assert not {"instant", "tyre_impulse"} & {each.code for each in col.diagnose(both)}
+        assert col.left_out(both).b.tyre_impulse_bound == 0.0
+    wall = reconstruct.central(
+        1500, np.inf, va=10.0, vb=4.0, restitution=0.2, duration=0.12, drag_a=0.7
+    )
+    assert wall.statements == ()
 
 
 def test_an_instant_that_could_take_drags_says_so():

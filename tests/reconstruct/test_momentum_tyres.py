@@ -288,9 +288,29 @@ def test_what_a_planar_reconstruction_leaves_out_is_said():
 def test_tyres_that_are_in_the_answer_are_no_finding():
     checks = [
         col.diagnose(answer).measured & {"tyre_impulse", "instant"}
-        for answer in (found(), found(duration=0.1, tyres_a=ROLLING))
+        for answer in (found(), found(duration=0.1, tyres_a=ROLLING, tyres_b=ROLLING))
     ]
     assert checks == [{"tyre_impulse", "instant"}, set()]
+
+
+def test_without_the_tyres_of_one_vehicle_it_says_what_these_would_change():
+    one = found(duration=0.13, tyres_a=ROLLING)
+    both = found(duration=0.13, tyres_a=ROLLING, tyres_b=locked(0.7))
+    (sentence,) = one.statements
+    assert sentence.startswith(
+        "found without the tyres of vehicle B: if its wheels slid for 0.13 s with a drag of 0.7"
+    )
+    said = re.search(r"the speed of B would be ([0-9.]+) m/s more; give `tyres_b=`", sentence)
+    assert float(said[1]) == pytest.approx(both.speed_b - one.speed_b, rel=0.06)
+    assert both.statements == ()
+    limits = {"tyre_impulse": 0.0, "instant": 0.0}
+    (tyres,) = (each for each in col.diagnose(one, limits=limits) if each.code == "tyre_impulse")
+    assert tyres.vehicle == "b"
+    assert tyres.measured == pytest.approx(0.7 * G * 0.13 / one.delta_v_b, rel=1e-12)
+    (instant,) = (each for each in col.diagnose(one, limits=limits) if each.code == "instant")
+    page = " ".join(col.report(one, form="markdown", figures=False).split())
+    for text in (instant.sentence, " ".join(explain(one, form="text").split()), page):
+        assert "without the tyres of vehicle B" in text
 
 
 @pytest.mark.parametrize("wheels", [np.array([1.0, 2.0]), np.zeros(0), "x", 0])

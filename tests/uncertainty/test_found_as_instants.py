@@ -69,18 +69,33 @@ def by_planar(value, **more):
 
 
 def by_central(value, **more):
-    held = {"duration": 0.1, "drag_b": 0.7} if more else {}
-    found = reconstruct.central(1500, 1300, va=value, vb=2.0, restitution=0.1, **held)
+    found = reconstruct.central(1500, 1300, va=value, vb=2.0, restitution=0.1, **drags(more))
     return found.b.after.vx
+
+
+def by_inline_closing_speed(value, **more):
+    return reconstruct.inline_closing_speed(1500, 1300, 0.1, delta_v_b=value, **drags(more))
+
+
+def drags(wheels):
+    names = {"duration": "duration", "tyres_a": "drag_a", "tyres_b": "drag_b"}
+    return {names[name]: 0.1 if name == "duration" else 0.7 for name in wheels}
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("solve", "mean"),
-    [(by_momentum, 8.0), (by_speeds, 6.0), (by_planar, 6.0), (by_central, 12.0)],
+    [
+        (by_momentum, 8.0),
+        (by_speeds, 6.0),
+        (by_planar, 6.0),
+        (by_central, 12.0),
+        (by_inline_closing_speed, 6.0),
+    ],
 )
 def test_a_study_of_instants_says_so_once_and_warns_of_nothing(solve, mean):
-    for more in ({}, WHEELS):
+    of_one = {name: WHEELS[name] for name in ("duration", "tyres_a")}
+    for more in ({}, of_one, WHEELS):
         with warnings.catch_warnings():
             warnings.simplefilter("error", col.CollisionsWarning)
             found = propagate(
@@ -92,6 +107,8 @@ def test_a_study_of_instants_says_so_once_and_warns_of_nothing(solve, mean):
         assert math.isfinite(found["speed"].mean)
         said = [one for one in found.statements if "as an instant" in one]
         assert len(said) == (0 if more else 1)
+        other = [one for one in found.statements if "without the tyres of vehicle B" in one]
+        assert len(other) == (1 if more == of_one else 0)
         moving = [one for one in found.statements if "point and normal move on" in one]
         assert len(moving) == (1 if more and solve in (by_speeds, by_planar) else 0)
         if said:

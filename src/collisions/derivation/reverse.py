@@ -279,7 +279,7 @@ def _while_held(
     duration: Any = origin.duration
     own: Any = origin.drag_a, origin.drag_b
     (a, b), e, g, r = s.bodies, s.e, s.closing, s.separation
-    drags = (page.system.answer(drag, "number") for drag in own)
+    drags = ("none" if drag is None else page.system.answer(drag, "number") for drag in own)
     page.say(
         f"Tyres act during {page.number(duration, 'time')} with drags of "
         f"{' (A) and '.join(drags)} (B): drag times weight times duration is an impulse from "

@@ -10,7 +10,8 @@ from typing import Any
 
 from ..impact.impact import Impact, answer_of
 from ..impact.inputs import PLACED
-from ..impact.instant import neglected, tyres_acted
+from ..impact.instant import neglected
+from ..impact.left_out import tyres_lacking
 from ..impact.reconstruction import (
     NOT_THIS,
     Reconstruction,
@@ -21,7 +22,9 @@ from ..impact.reconstruction import (
 from ..impact.time_resolved_inputs import held_impulse
 from ..impact.vehicle_result import VehicleResult
 from ..reconstruct.found_again import components_apart
+from ..reconstruct.momentum_tyres import lasts
 from ..reconstruct.momentum_tyres import neglected as momentum_neglect
+from ..reconstruct.momentum_tyres import tyres_lacking as momentum_lacking
 from ..reconstruct.speeds import if_it_slid, taken_to_stick
 from ..reference import INTER_VEHICLE_FRICTION, RECORDER_ACCURACY
 from ..vehicle.drag import GRAVITY
@@ -149,30 +152,30 @@ def speed_backwards(case: Case) -> Iterator[Measured]:
     f"large trucks, {METHOD}",
 )
 def tyre_impulse(case: Case) -> Iterator[Measured]:
-    if isinstance(case, MomentumCase) and case.answer.tyres:
-        return
-    for label, vehicle in case.vehicles.items():
-        if isinstance(case, ImpactCase) and (
-            tyres_acted(case.answer) or (case.answer.inputs.drag and case.left_out is None)
-        ):
-            continue
+    lacking = (
+        momentum_lacking(case.answer)
+        if isinstance(case, MomentumCase)
+        else tyres_lacking(case.answer)
+    )
+    for label in lacking:
+        vehicle = case.vehicles[label]
+        time = case.duration
         if isinstance(case, ImpactCase) and case.left_out is not None:
             left = getattr(case.left_out, label)
             most, part = left.tyre_delta_v_bound, left.tyre_share_bound
             # For a body that turns about a pivot it is an estimate.
             how = "up to" if getattr(case.answer, label).before.pivot is None else "about"
         else:
-            most = case.drag * GRAVITY * case.duration
+            if isinstance(case, MomentumCase):
+                time = lasts(case.answer, time)
+            most = case.drag * GRAVITY * time
             part, how = share(most, vehicle.delta_v), "up to"
-        if case.tyres:
-            if label not in case.tyres:
-                continue
-            slide = f"that slide for {case.duration:.3g} s with a friction of "
-            slide += f"{case.tyres[label].friction:.2g}"
-        else:
-            slide = f"that slide for {case.duration:.3g} s with a drag of {case.drag:.2g}"
+        slide = f"a drag of {case.drag:.2g}"
+        if label in case.tyres:
+            slide = f"a friction of {case.tyres[label].friction:.2g}"
         sentence = (
-            f"tyres of {vehicle.who} {slide} give {how} {case.text(most, 'speed')}, "
+            f"tyres of {vehicle.who} that slide for {time:.3g} s with {slide} give {how} "
+            f"{case.text(most, 'speed')}, "
             f"{percent(part)} of its delta-V of {case.text(vehicle.delta_v, 'speed')}"
         )
         yield Measured(part, sentence, label)
@@ -212,8 +215,8 @@ def tyres_stop(case: ImpactCase) -> Iterator[Measured]:
 
 
 @finding(
-    "in a reconstruction without tyres, what an instant leaves out, as a share of delta-V, or of "
-    "a speed that momentum found",
+    "in a reconstruction without tyres, what an instant leaves out, or without those of one "
+    "vehicle, what these would do, as a share of delta-V, or of a speed that momentum found",
     above(0.1),
     f"the 10 percent by which delta-V may differ between methods, {MESSAGES}",
 )
@@ -223,7 +226,7 @@ def instant(case: Case) -> Iterator[Measured]:
         if left is not None:
             yield Measured(left.share, left.sentence)
     elif case.left_out is not None:
-        neglect = neglected(case.answer, case.left_out, wheels=bool(case.tyres))
+        neglect = neglected(case.answer, case.left_out, wheels=case.tyres)
         if neglect is not None:
             yield Measured(neglect.share, neglect.sentence)
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..impact.impact import Impact, solve_changed
 from ..impact.inputs import PLACED
-from ..impact.instant import tyres_acted
+from ..impact.left_out import tyres_held, tyres_lacking
 from ..kernels.contact_laws import RULES
 from ..quantities.attributes import Quantities, same_fields
 from ..quantities.directions import from_degrees
@@ -200,16 +200,19 @@ def _of_idealisation(case: ImpactCase) -> Iterator[Move]:
     left = case.left_out
     if left is None:
         return
-    held = tyres_acted(case.answer)
-    time = f"{left.duration:.3g} s"
-    sliding = f"tyres sliding {time}, drag {left.drag:.2g}"
-    tyres = f"tyres as given, {time}" if case.tyres else sliding
+    lacking, time = tyres_lacking(case.answer), f"{left.duration:.3g} s"
+    unknown = [label for label in lacking if label not in case.tyres]
+    tyres = f"tyres as given, {time}"
+    if unknown:
+        of = f" of {unknown[0].upper()}" if case.tyres or tyres_held(case.answer) else ""
+        tyres = f"tyres{of} sliding {time}, drag {left.drag:.2g}"
+        tyres += ", others as given" if case.tyres else ""
     for name, what, of in (
         ("geometry", f"motion during contact, {time}", "geometry"),
         ("tyres", tyres, "tyre"),
     ):
         changes = [getattr(side, f"{of}_delta_v") for side in (left.a, left.b)]
-        if None in changes or (name == "tyres" and held):
+        if None in changes or (name == "tyres" and not lacking):
             continue
         sizes = (side.delta_v for _, _, side in case.sides)
         shares = [

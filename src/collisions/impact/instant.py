@@ -5,7 +5,7 @@ still leaves out with tyres.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -13,9 +13,9 @@ import numpy as np
 from ..messages.errors import CollisionsError
 from ..messages.warning import quietly
 from ..quantities.formatting import percent
-from ..vehicle.drag import USUAL_DURATION
+from ..vehicle.vehicle import with_name
 from .impact import Impact
-from .left_out import LeftOut, left_out
+from .left_out import LeftOut, left_out, tyres_held, tyres_lacking
 from .reconstruction import Reconstruction
 
 # Of the tyres of an impulse: how its kernel, ``held``, limits their force.
@@ -52,35 +52,37 @@ TAKE_TYRES = ("planar", "speeds")
 
 
 class Neglect(NamedTuple):
-    """The larger share of delta-V that is left out, for tyres or for the motion, and the sentence
-    for it.
+    """The larger share of delta-V that is left out, for tyres or for the motion, the sentence for
+    it, and what it assumes.
     """
 
     share: float
     sentence: str
+    assumed: str = "drag and duration"
 
 
 def neglected(
     impact: Impact,
     found: LeftOut | None = None,
     *,
-    wheels: bool = False,
+    wheels: Collection[str] = (),
     of_scene: bool = False,
 ) -> Neglect | None:
     """What a reconstruction as an instant leaves out, as ``left_out`` estimates it, of the worse of
-    both vehicles and in a batch in the median; None of an impact that was not reconstructed, or
-    that has tyres or a drag. ``wheels`` says that it was estimated with tyres, and not with a drag,
-    ``of_scene`` that the impact is one of a scene whose numbers were found.
+    both vehicles and in a batch in the median; of one with the tyres of one vehicle, what the other
+    leaves out without. None of an impact that was not reconstructed, or that has the tyres or drags
+    of both. ``wheels`` are the vehicles whose tyres it was estimated with, and not with a drag,
+    ``of_scene`` says that the impact is one of a scene whose numbers were found.
     """
-    origin = impact.reconstruction
-    if tyres_acted(impact) or impact.pulse is not None or np.all(impact.refused):
+    origin, lacking = impact.reconstruction, tyres_lacking(impact)
+    if not lacking or impact.pulse is not None or np.all(impact.refused):
         return None
     if origin is None and not of_scene:
         return None
     if found is None:
         try:
             with quietly():
-                found = left_out(impact, duration=float(USUAL_DURATION))
+                found = left_out(impact)
         except CollisionsError:
             # Numbers at the end of what floats hold.
             return None
@@ -88,15 +90,12 @@ def neglected(
         _worst(getattr(found.a, name), getattr(found.b, name))
         for name in ("tyre_share", "geometry_share")
     )
-    by_tyres = (
-        "for the tyres as given"
-        if wheels
-        else f"for tyres that slide with a drag of {_middle(found.drag):.2g}"
-    )
+    if tyres_held(impact):
+        return _of_the_other(impact, lacking[0], found, tyres, of_scene=of_scene)
     parts = [
         f"{percent(share)} {what}"
         for share, what in (
-            (tyres, by_tyres),
+            (tyres, f"for {_tyres_in_words(found, lacking, wheels)}"),
             (motion, "for point and normal that move on"),
         )
         if math.isfinite(share)
@@ -115,12 +114,47 @@ def neglected(
             if follows
             else "collisions.left_out says more of it"
         )
-    median = " (medians)" if np.ndim(impact.closing_speed) else ""
     sentence = (
         f"found as an instant: of delta-V that leaves out about {' and '.join(parts)}, during "
-        f"{_middle(found.duration):.3g} s{median}; {advice}"
+        f"{_middle(found.duration):.3g} s{_medians(impact)}; {advice}"
     )
     return Neglect(max(share for share in (tyres, motion) if math.isfinite(share)), sentence)
+
+
+def _of_the_other(
+    impact: Impact, label: str, found: LeftOut, share: float, *, of_scene: bool
+) -> Neglect | None:
+    """What an impact leaves out that has the tyres of one vehicle, and not those of this one."""
+    if not math.isfinite(share):
+        return None
+    who = with_name(f"vehicle {label.upper()}", getattr(impact.inputs, label))
+    advice = f"give `tyres_{label}=`"
+    if of_scene:
+        advice = "give that vehicle its `tyres=`"
+    elif not impact.inputs.tyres:
+        advice = f"give `drag_{label}=`, which is 0 where its wheels roll"
+    sentence = (
+        f"found without the tyres of {who}: of delta-V that leaves out about {percent(share)} if "
+        f"they slide with a drag of {_middle(found.drag):.2g} for "
+        f"{_middle(found.duration):.3g} s{_medians(impact)}; {advice}"
+    )
+    return Neglect(share, sentence, "drag")
+
+
+def _tyres_in_words(found: LeftOut, lacking: Sequence[str], wheels: Collection[str]) -> str:
+    """What was left out for tyres: those given beside the impact, and others that slide."""
+    sliding = f"that slide with a drag of {_middle(found.drag):.2g}"
+    given = [label for label in lacking if label in wheels]
+    if not given:
+        return f"tyres {sliding}"
+    if len(given) == len(lacking):
+        return "the tyres as given"
+    (other,) = set(lacking) - set(given)
+    return f"the tyres of {given[0].upper()} as given and those of {other.upper()} {sliding}"
+
+
+def _medians(impact: Impact) -> str:
+    return " (medians)" if np.ndim(impact.closing_speed) else ""
 
 
 def looked_for(known: Sequence[str]) -> str:
@@ -129,12 +163,6 @@ def looked_for(known: Sequence[str]) -> str:
     """
     along = len(known) == 2 and any(name.startswith("speed") for name in known)
     return LOOKED_ALONG if along else LOOKED_FOR
-
-
-def tyres_acted(impact: Impact) -> bool:
-    """Whether the tyres are in the answer: those given, or the drags that a reverse solver took."""
-    origin = impact.reconstruction
-    return bool(impact.inputs.tyres) or (origin is not None and origin.duration is not None)
 
 
 def found_from_readings(impact: Impact) -> tuple[str, ...]:
@@ -175,10 +203,9 @@ def _motion_left_out(impact: Impact) -> tuple[str, ...]:
     motion = _worst(found.a.geometry_share, found.b.geometry_share)
     if not math.isfinite(motion):
         return ()
-    median = " (medians)" if np.ndim(impact.closing_speed) else ""
     return (
         f"found with tyres: of delta-V that leaves out about {percent(motion)} for point and "
-        f"normal that move on, during {_middle(found.duration):.3g} s{median}; `fit` or "
+        f"normal that move on, during {_middle(found.duration):.3g} s{_medians(impact)}; `fit` or "
         "`posterior` with `time_resolved` as the model has it",
     )
 

@@ -5,7 +5,7 @@ vehicles during the contact.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal, NamedTuple
 
@@ -24,7 +24,7 @@ from ..quantities.settings import Default, callers_options, computing
 from ..quantities.units import Input, Value, shown
 from ..travel.surfaces import out_of_range, settle
 from ..vehicle.drag import GRAVITY, USUAL_DURATION, read_drag, read_duration
-from ..vehicle.tyres import Tyres
+from ..vehicle.tyres import Tyres, lacking
 from ..vehicle.vehicle import Vehicle, needed
 from . import pulse
 from .impact import Impact, answer_of, part_of_impact, solve_changed
@@ -85,8 +85,8 @@ class Pull(NamedTuple):
 def by_wheels(
     impact: Impact, time: Any, tyres: Mapping[str, Tyres], pulls: tuple[Pull, Pull]
 ) -> tuple[Pull, Pull]:
-    """What wheels that roll, brake and steer do over the contact, as ``eccentric`` takes them; none
-    where there are none.
+    """What wheels that roll, brake and steer do over the contact, as ``eccentric`` takes them; of a
+    vehicle without it is what a drag does.
     """
     inputs = replace(
         impact.inputs, tyres_a=tyres.get("tyres_a"), tyres_b=tyres.get("tyres_b"), duration=time
@@ -95,7 +95,7 @@ def by_wheels(
     for label, body, pull in zip("ab", (inputs.a, inputs.b), pulls, strict=True):
         own = inputs.tyres.get(label)
         if own is None:
-            found.append(Pull(0.0 * pull.x, 0.0 * pull.y, 0.0 * pull.most))
+            found.append(pull)
             continue
         mass = finite_mass(body)
         x, y, yaw = (
@@ -107,6 +107,22 @@ def by_wheels(
             Pull(x, y, Pull.of(getattr(impact, label), inputs.restitution, drag).most, yaw)
         )
     return found[0], found[1]
+
+
+def tyres_held(impact: Impact) -> tuple[str, ...]:
+    """The vehicles, "a" and "b", whose tyres are in an impact: those that were given, or by
+    ``central`` their drags.
+    """
+    inputs, origin = impact.inputs, impact.reconstruction
+    if impact.pulse is not None and np.any(inputs.drag):
+        return "a", "b"
+    drags = {} if origin is None else {"a": origin.drag_a, "b": origin.drag_b}
+    return tuple(label for label in "ab" if label in inputs.tyres or drags.get(label) is not None)
+
+
+def tyres_lacking(impact: Impact) -> tuple[str, ...]:
+    """The others that could have some."""
+    return lacking(tyres_held(impact), impact.inputs.a.mass, impact.inputs.b.mass)
 
 
 def with_tyres(impact: Impact, pulls: tuple[Pull, Pull]) -> list[Any]:
@@ -291,7 +307,7 @@ class LeftOutVehicle(Shown):
     ----------
     tyre_impulse_bound : float or array [N*s]
         The largest impulse that tyres sliding throughout can give: drag x weight x duration; 0 for
-        an infinite mass.
+        an infinite mass, and for a vehicle whose tyres are in the impact.
     tyre_delta_v_bound, tyre_share_bound : float or array [m/s], [-]
         The change of velocity of the centre of mass due to that impulse, and its share. For a
         pinned vehicle it is no bound but an estimate, since it is not known how far from the pivot
@@ -301,9 +317,9 @@ class LeftOutVehicle(Shown):
         Estimate of the impulse, its magnitude and its components along scene x and y: the tyres act
         against the motion of the centre of mass, as that changes during the contact.
     tyre_delta_v, tyre_share : float or array [m/s], [-]
-        Estimate of how far the delta-V vector moves due to the tyres of both vehicles and the
-        response of the contact to them; it may therefore exceed the bound, which is for the
-        vehicle's own tyres.
+        Estimate of how far the delta-V vector moves due to the tyres of both vehicles, as far as
+        they are not in the impact, and the response of the contact to them; it may therefore exceed
+        the bound, which is for the vehicle's own tyres.
     displacement_x, displacement_y : float or array [m]
         Displacement of the centre of mass during the contact.
     rotation : float or array [rad]
@@ -343,7 +359,8 @@ class LeftOut(Shown):
     duration : float or array [s]
         Duration of the contact, as given.
     drag : float or array [-]
-        Drag factor of the tyres on the ground, as given.
+        Drag factor of the tyres on the ground, as given; 0 where the tyres of both are in the
+        impact.
     mutual_crush : float or array [m]
         Largest distance by which the contact points pass into each other along the normal, both
         vehicles together. NaN for an incomplete impact, in which the bodies pass each other or
@@ -410,10 +427,11 @@ def left_out(
         wheels that slide whatever way they go; those that roll hardly resist along themselves, and
         sideways with their full friction: give ``tyres_a`` and ``tyres_b``.
     tyres_a, tyres_b : travel.Tyres, optional
-        The wheels of each vehicle in place of the drag, which then counts for neither: the impulse
-        of the tyres is then that which ``eccentric`` takes with them, and its bound that of their
-        friction. Of an impact that has its tyres none are left out; the duration is then that of
-        the impact, unless another is given.
+        The wheels of each vehicle in place of the drag, which still counts for a vehicle without:
+        the impulse of the tyres is then that which ``eccentric`` takes with them, and its bound
+        that of their friction. Of a vehicle whose tyres are in the impact none are left out, of the
+        other those that slide with the drag; the duration is then that of the impact, unless
+        another is given.
     geometry : {"maximum_engagement", "first_contact"}
         When the positions, the point and the normal of the impact are those of the vehicles, as for
         ``time_resolved``: as everywhere at maximum engagement, at which damage is matched, or at
@@ -524,16 +542,19 @@ def left_out(
             f"got {shown(geometry)}"
         )
         reader.refuse(InputError(text, code="bad_option", argument="geometry"))
-    if tyres.keys() and impact.inputs.tyres:
+    held = tyres_held(impact) if tyres else ()
+    if held:
         if tyres_a is not None or tyres_b is not None:
             text = (
                 "impact has its tyres, so they are not left out of it; leave tyres_a and tyres_b "
                 "out, or write again()"
             )
             reader.refuse(InputError(text, code="bad_combination", argument="tyres_a"))
-        pull = 0.0
+        if not tyres_lacking(impact):
+            pull = 0.0
         if isinstance(duration, Default):
-            time = impact.inputs.duration
+            origin, time = impact.reconstruction, impact.inputs.duration
+            time = origin.duration if time is None and origin is not None else time
     reader.close()
     given = {"impact": impact.closing_speed, "duration": time, "drag": pull}
     own = {name: one for name, one in tyres.items() if one is not None}
@@ -549,11 +570,11 @@ def left_out(
     if shape is None:
         if beyond:
             raise out_of_range()
-        return _assembled(_estimated(impact, time, pull, own, geometry), texts)
+        return _assembled(_estimated(impact, time, pull, held, own, geometry), texts)
     if is_one_part(shape):
         whole = {
             name: value if value is None else np.broadcast_to(value, shape).astype(dtype)
-            for name, value in _estimated(impact, time, pull, own, geometry).items()
+            for name, value in _estimated(impact, time, pull, held, own, geometry).items()
         }
     else:
 
@@ -562,7 +583,7 @@ def left_out(
             with quietly():
                 some = part_of_impact(impact, part.of, on_failure="nan")
             there = part_of(own, part.of)
-            return _estimated(some, part.of(time), part.of(pull), there, geometry)
+            return _estimated(some, part.of(time), part.of(pull), held, there, geometry)
 
         whole = in_parts(work, shape, dtype)
     there = {name: value for name, value in whole.items() if value is not None}
@@ -573,22 +594,23 @@ def left_out(
 
 
 def _estimated(
-    impact: Impact, time: Any, drag: Any, wheels: Mapping[str, Tyres], geometry: str
+    impact: Impact,
+    time: Any,
+    drag: Any,
+    held: Collection[str],
+    wheels: Mapping[str, Tyres],
+    geometry: str,
 ) -> dict[str, Any]:
     """The fields of ``LeftOut`` by name, those of its sides prefixed "a." or "b."; NaN where
-    refused.
+    refused. Tyres of the vehicles ``held`` are in the impact.
     """
     with np.errstate(all="ignore"):
-        e, most = impact.restitution, drag * GRAVITY * time
-        pulls = Pull.of(impact.a, e, most), Pull.of(impact.b, e, most)
+        e = impact.restitution
+        bounds = {label: (0.0 if label in held else 1.0) * drag * GRAVITY * time for label in "ab"}
+        pulls = Pull.of(impact.a, e, bounds["a"]), Pull.of(impact.b, e, bounds["b"])
         if wheels:
             pulls = by_wheels(impact, time, wheels, pulls)
-        bounds = {
-            label: wheels[f"tyres_{label}"].friction * GRAVITY * time
-            if f"tyres_{label}" in wheels
-            else 0.0 * most
-            for label in "ab"
-        }
+            bounds |= {name[-1]: one.friction * GRAVITY * time for name, one in wheels.items()}
         # A refused single case cannot be solved again.
         tyres = [math.nan] * 2 if impact.refused is True else with_tyres(impact, pulls)
         moved = with_motion(impact, time, geometry)
@@ -611,7 +633,7 @@ def _estimated(
             before, delta_v = side.before, side.delta_v
             mass = finite_mass(before)
             of_side = {
-                "tyre_impulse_bound": mass * (bounds[label] if wheels else most),
+                "tyre_impulse_bound": mass * bounds[label],
                 "tyre_delta_v_bound": pull.most,
                 "tyre_share_bound": _share(pull.most, delta_v),
                 "tyre_impulse": mass * hypot(pull.x, pull.y),

@@ -14,6 +14,7 @@ from ..messages.errors import IllConditionedWarning
 from ..messages.warning import WORKED_BACK, in_study, state_of_study, warn_of_cases
 from ..reference import INTER_VEHICLE_FRICTION
 from .impact import Impact
+from .left_out import tyres_lacking
 from .run import state_refusals
 
 # Models that a caller chose; ``solve`` chooses by a tolerance.
@@ -27,9 +28,19 @@ _LEFT_BY_PUSH = (
     "lasts; `left_out` says of one case how much that is"
 )
 _LEFT_BY_TYRES = (
-    "with the tyres, which leaves out that point and normal move on while the contact lasts; "
-    "`finer=` with `time_resolved` has that too"
+    "that point and normal move on while the contact lasts; `finer=` with `time_resolved` has that "
+    "too"
 )
+
+
+def _left_by_tyres(impact: Impact) -> str:
+    if not (lacking := tyres_lacking(impact)):
+        return f"with the tyres, which leaves out {_LEFT_BY_TYRES}"
+    label = lacking[0]
+    return (
+        f"with the tyres of one vehicle alone, which leaves out those of {label.upper()}, as "
+        f"`tyres_{label}=` was not given, and {_LEFT_BY_TYRES}"
+    )
 
 
 def noted(impact: Impact, on_failure: Any = None) -> Impact:
@@ -46,7 +57,7 @@ def noted(impact: Impact, on_failure: Any = None) -> Impact:
     if on_failure == "nan":
         state_refusals(impact.status)
     if inputs.model in _INSTANTS:
-        rest = _LEFT_BY_TYRES if inputs.tyres else _LEFT_BY_PUSH if inputs.pushed else _LEFT
+        rest = _left_by_tyres(impact) if inputs.tyres else _LEFT_BY_PUSH if inputs.pushed else _LEFT
         state_of_study(f"{inputs.model} solved every case {rest}", WORKED_BACK)
     bound = inputs.rule_value
     if (type(bound) is float and bound < math.inf) or inputs.rule != FRICTION:

@@ -65,7 +65,8 @@ class Reconstruction:
 
         .. versionadded:: 0.2.0
     duration, drag_a, drag_b : float or array [s, -, -], optional
-        Of ``central``: how long the contact lasts, and the drags of the tyres meanwhile.
+        Of ``central``: how long the contact lasts, and the drags of the tyres meanwhile; None
+        where not given.
     """
 
     method: str

@@ -307,7 +307,8 @@ def eccentric(
         the vehicle moves after as before, up to twice where the contact sets it in motion. Where
         tyres could stop a vehicle, or its turning, within the contact, their impulse is rough, and
         ``diagnose`` says so (``tyres_stop``). This costs two calls; the motion during the contact,
-        which ``time_resolved`` has too, is left out.
+        which ``time_resolved`` has too, is left out. A vehicle without has no tyre forces;
+        ``left_out`` and ``diagnose`` say what they could do, a wall has none.
     incomplete, on_failure, threads, progress
         As for ``linear_central``.
 
@@ -458,7 +459,7 @@ def time_resolved(
     tyres_a, tyres_b : travel.Tyres, optional
         The wheels of each vehicle, in place of a drag: rolling, braked or steered, with the tyre
         force that ``travel.simulate`` has on the way to rest. A vehicle with tyres needs a
-        ``heading``; one without has no tyre forces.
+        ``heading``; one without has no tyre forces, and ``diagnose`` says what they could give.
     geometry : {"maximum_engagement", "first_contact", "fixed"}
         The moment to which the given positions belong. Maximum engagement is what all other solvers
         take; the start of the contact is then searched for, until the places reached are within

@@ -31,9 +31,9 @@ from ..messages.hints import hinted
 from ..quantities.reading import ArgumentReader
 from ..quantities.tables import Sentences
 from ..quantities.units import Input
-from ..vehicle.drag import GRAVITY
 from ..vehicle.vehicle import Vehicle, moved
 from .common import (
+    DRAGS,
     Cases,
     drag_faults,
     exactly,
@@ -43,7 +43,9 @@ from .common import (
     read_drags,
     read_masses,
     run_forward,
+    slowed_by,
     state_instant,
+    state_other,
     warn_of_condition,
 )
 
@@ -55,7 +57,6 @@ _KINDS = {
     "duration": "time",
     **dict.fromkeys(("restitution", "drag_a", "drag_b"), "number"),
 }
-_DRAGS = ("duration", "drag_a", "drag_b")
 _IN_TEXTS = {"duration": "contact_duration"}
 # The texts of these are kept with the vehicles.
 _OF_VEHICLES = ("mass_a", "mass_b", "va", "vb", "heading_a", "heading_b")
@@ -135,8 +136,9 @@ def central(
         How long the contact lasts, > 0, for the drags: 0.05 to 0.15 s for cars.
     drag_a, drag_b : float, str, Quantity or array [-], optional
         Drag factor of the tyres of a vehicle while the contact lasts, >= 0, or a deceleration: 0.7
-        is locked wheels on a dry road; 0 if not given. Velocities after are those with their part,
-        and an energy loss is that of the contact alone. They do not slow an infinite mass.
+        is locked wheels on a dry road. A vehicle without has no tyre forces, and ``.statements``
+        say what they would change. Velocities after are those with their part, and an energy loss
+        is that of the contact alone. They do not slow an infinite mass.
     on_failure : {None, "raise", "nan"}, optional
         What to do with a refused case of a batch: NaN and one warning, an error, or NaN without a
         warning.
@@ -242,7 +244,8 @@ def _answer(
     alike = np.fmax(np.sqrt(64.0 * cases.eps), one.rounding + other.rounding)
     apart = apart | (abs(one.restitution - other.restitution) > alike)
     ambiguous = one.fits & other.fits & apart
-    held = "duration" in arrays
+    lasting = [name for name in ("duration", *DRAGS) if name in arrays]
+    held = bool(lasting)
     status = cases.first_status(
         (
             *input_faults(arrays, incomplete),
@@ -257,12 +260,11 @@ def _answer(
         condition = _condition(arrays, found, which, cases.eps, incomplete)
         given = {name: numbers[name] for name in known}
         velocity = () if held else (found.closing, 0.0 * found.closing)
-        names = (*known, "contact_duration", "drag_a", "drag_b") if held else known
+        names = (*known, *(_IN_TEXTS.get(name, name) for name in lasting))
         origin = cases.reconstruction(
             "central", names, condition, count, velocity, where, given=given
         )
-        drags = {name: cases.values(arrays[name]) for name in _DRAGS if held}
-        return replace(origin, **drags)
+        return replace(origin, **{name: cases.values(arrays[name]) for name in lasting})
 
     def inputs_of(found: Candidate, keep: Any) -> Inputs:
         # In line, so that nothing moves across or turns; no warnings for states that were not
@@ -286,7 +288,7 @@ def _answer(
             return Inputs("linear_central", a, b, *contact, incomplete=incomplete)
         pushes: dict[str, Any] = {
             f"outside_{label}": (cases.values(-_mass(arrays, label) * slowed), 0.0, 0.0)
-            for label, slowed in _slowed(arrays).items()
+            for label, slowed in slowed_by(arrays).items()
         }
         more = {"point": (0.0, 0.0), "given": others, "incomplete": incomplete} | pushes
         return Inputs("eccentric", a, b, e, _ALONG_X, FRICTION, _FRICTIONLESS, BRACH, **more)
@@ -317,6 +319,9 @@ def _answer(
     if not held:
         wheels = "`drag_a=` and `drag_b=`, where A runs into the rear of B"
         state_instant("central", f"`duration=`, {wheels}")
+    else:
+        masses = arrays["mass_a"], arrays["mass_b"]
+        state_other("central", [name[-1] for name in lasting[1:]], masses, "drag")
     return impact
 
 
@@ -324,20 +329,6 @@ def _mass(known: dict[str, Any], label: str) -> Any:
     """The mass of a vehicle; of an infinite one, which no tyres slow, 0."""
     mass = known[f"mass_{label}"]
     return np.where(np.isinf(mass), 0.0, mass)
-
-
-def _slowed(known: dict[str, Any]) -> dict[str, Any]:
-    """What tyres slow each vehicle by while the contact lasts."""
-    if "duration" not in known:
-        return {"a": 0.0, "b": 0.0}
-    return {
-        label: np.where(
-            np.isinf(known[f"mass_{label}"]),
-            0.0,
-            GRAVITY * known["duration"] * known[f"drag_{label}"],
-        )
-        for label in "ab"
-    }
 
 
 def _half_slowed(known: dict[str, Any]) -> tuple[dict[str, Any], Any]:
@@ -353,7 +344,7 @@ def _half_slowed(known: dict[str, Any]) -> tuple[dict[str, Any], Any]:
 
 
 def _half_of(known: dict[str, Any]) -> dict[str, Any]:
-    return {label: 0.5 * slowed for label, slowed in _slowed(known).items()}
+    return {label: 0.5 * slowed for label, slowed in slowed_by(known).items()}
 
 
 def _against(known: dict[str, Any], found: Candidate) -> Any:
@@ -362,7 +353,7 @@ def _against(known: dict[str, Any], found: Candidate) -> Any:
     share_a, share_b, *_ = shares(known["mass_a"], known["mass_b"])
     if "duration" not in known:
         return against
-    slowed = _slowed(known)
+    slowed = slowed_by(known)
     passed = (1.0 + found.restitution) * found.closing + slowed["b"] - slowed["a"]
     after = {"a": found.va - share_a * passed, "b": found.vb + share_b * passed}
     for label, before in (("a", found.va), ("b", found.vb)):

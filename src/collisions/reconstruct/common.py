@@ -5,7 +5,7 @@ forward run at the end.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -33,13 +33,15 @@ from ..quantities.attributes import read_only
 from ..quantities.precision import precision
 from ..quantities.reading import ArgumentReader, amount, broadcast
 from ..quantities.units import Texts, shown
-from ..vehicle.drag import read_drag, read_duration
+from ..vehicle.drag import GRAVITY, read_drag, read_duration
+from ..vehicle.tyres import lacking
 from ..vehicle.vehicle import Vehicle
 
 # The numbers of a body, in the order in which ``forward`` takes them.
 NUMBERS = ("mass", "yaw_inertia", "vx", "vy", "yaw_rate", "x", "y", "pivot_x", "pivot_y")
 # Prefixes of the names of numbers that cannot be below 0.
 _AMOUNTS = ("energy", "closing_speed", "speed_", "delta_v_a", "delta_v_b", "ees_", "max_crush")
+DRAGS = ("drag_a", "drag_b")
 # Known values of both vehicles that count as one.
 PAIRS = {"ees_a": "ees_b", "max_crush_speed_a": "max_crush_speed_b"}
 # Between the courses of two unknown speeds: nearer to one line, they are hardly told apart.
@@ -125,7 +127,7 @@ def read_amounts(reader: ArgumentReader, given: Mapping[str, Any]) -> dict[str, 
 
 
 def read_drags(reader: ArgumentReader, duration: Any, drags: dict[str, Any]) -> dict[str, Any]:
-    """Duration and drags: all of them, or none."""
+    """Duration and the drags that were given: some of them with a duration, or none."""
     given = {name: drag for name, drag in drags.items() if drag is not None}
     if (duration is None) == bool(given):
         lacking = "duration" if duration is None else "drag_a"
@@ -147,17 +149,32 @@ def read_drags(reader: ArgumentReader, duration: Any, drags: dict[str, Any]) -> 
     if isinstance(found["duration"], float) and found["duration"] == 0.0:
         text = f"duration must be > 0, got {shown(duration)}; leave it and the drags out instead"
         reader.refuse(InputError(text, code="not_positive", argument="duration"))
-    return found | {
-        name: read_drag(reader, given.get(name, 0.0), name) for name in ("drag_a", "drag_b")
-    }
+    return found | {name: read_drag(reader, drag, name) for name, drag in given.items()}
 
 
 def drag_faults(numbers: Mapping[str, Any]) -> list[tuple[Any, int]]:
     """The faults of arrays of duration and drags."""
     if "duration" not in numbers:
         return []
-    below = [(np.less(numbers[name], 0.0), Status.NEGATIVE_SIZE) for name in ("drag_a", "drag_b")]
+    below = [
+        (np.less(numbers[name], 0.0), Status.NEGATIVE_SIZE) for name in DRAGS if name in numbers
+    ]
     return [(np.less_equal(numbers["duration"], 0.0), Status.NOT_POSITIVE), *below]
+
+
+def slowed_by(numbers: Mapping[str, Any]) -> dict[str, Any]:
+    """What tyres slow each vehicle by while an in-line contact lasts: one of infinite mass, or
+    without a drag, by nothing.
+    """
+    time = numbers.get("duration", 0.0)
+    return {
+        label: np.where(
+            np.isinf(numbers[f"mass_{label}"]),
+            0.0,
+            GRAVITY * time * numbers.get(f"drag_{label}", 0.0),
+        )
+        for label in "ab"
+    }
 
 
 def split_texts(body: Vehicle, motion: Sequence[str]) -> tuple[dict[str, str], dict[str, str]]:
@@ -374,16 +391,42 @@ def warn_of_condition(origin: Reconstruction) -> None:
     warn_of_cases(warning, {sentence: ill})
 
 
-def state_instant(solver: str, missing: str = "`duration=`, `tyres_a=` and `tyres_b=`") -> None:
+_OF_ONE_CASE = ". The statements of one case say how much that is"
+
+
+def state_instant(
+    solver: str,
+    missing: str = "`duration=`, `tyres_a=` and `tyres_b=`",
+    *,
+    of_one_case: str = _OF_ONE_CASE,
+) -> None:
     """State of a study that its impacts were found as instants, as what is ``missing`` was not
-    given.
+    given; ``of_one_case`` says where one case has more of it.
     """
     state_of_study(
         f"{solver} found every case as an instant, which leaves out the tyres and the "
-        f"motion while the contact lasts; give {missing}. The statements "
-        "of one case say how much that is",
+        f"motion while the contact lasts; give {missing}{of_one_case}",
         "instant",
     )
+
+
+def state_other(
+    solver: str,
+    held: Collection[str],
+    masses: Sequence[Any],
+    argument: str = "tyres",
+    *,
+    of_one_case: str = _OF_ONE_CASE,
+) -> None:
+    """State of a study with the tyres of the vehicles ``held`` that those of the other are not in
+    it, as their ``argument`` was not given.
+    """
+    for label in lacking(held, *masses):
+        state_of_study(
+            f"{solver} found every case without the tyres of vehicle {label.upper()}, which leaves "
+            f"out what they do while the contact lasts; give `{argument}_{label}=`{of_one_case}",
+            "without_tyres",
+        )
 
 
 def state_motion(solver: str) -> None:

@@ -18,9 +18,9 @@ from ..messages.hints import hinted
 from ..quantities.reading import ArgumentReader
 from ..quantities.tables import Sentences
 from ..quantities.units import Input, Value
-from ..vehicle.drag import GRAVITY
 from .common import (
     ASK_ALONE,
+    DRAGS,
     PAIRS,
     Cases,
     drag_faults,
@@ -29,6 +29,9 @@ from .common import (
     read_amounts,
     read_drags,
     read_masses,
+    slowed_by,
+    state_instant,
+    state_other,
 )
 from .restitution_roots import RestitutionOf, crossings
 
@@ -85,8 +88,9 @@ def inline_closing_speed(
         How long the contact lasts, > 0, for the drags: 0.05 to 0.15 s for cars.
     drag_a, drag_b : float, str, Quantity or array [-], optional
         Drag factor of the tyres of a vehicle while the contact lasts, >= 0, or a deceleration: 0.7
-        is locked wheels on a dry road; 0 if not given. A known delta-V has their part in it, and
-        the energies are those of the contact alone.
+        is locked wheels on a dry road. A vehicle without has no tyre forces, which a study
+        states. A known delta-V has their part in it, and the energies are those of the contact
+        alone.
 
     Returns
     -------
@@ -141,6 +145,13 @@ def inline_closing_speed(
         0.0 if callable(restitution) else restitution, "", "restitution", RESTITUTION
     )
     reader.close()
+    if duration is None:
+        missing = "`duration=`, `drag_a=` and `drag_b=`"
+        state_instant("inline_closing_speed", missing, of_one_case="")
+    else:
+        held = [name[-1] for name in DRAGS if name in numbers]
+        masses = numbers["mass_a"], numbers["mass_b"]
+        state_other("inline_closing_speed", held, masses, "drag", of_one_case="")
     cases = Cases.of(numbers)
     say = Sentences(reader.texts.values())
     if callable(restitution):
@@ -154,14 +165,7 @@ def _closing_speeds(kind: str, numbers: dict[str, Any]) -> tuple[Any, Any]:
     with np.errstate(all="ignore"):
         share_a, share_b, reduced, _ = shares(values["mass_a"], values["mass_b"])
         if "duration" in values:
-            slowed = {
-                label: np.where(
-                    np.isinf(values[f"mass_{label}"]),
-                    0.0,
-                    GRAVITY * values["duration"] * values[f"drag_{label}"],
-                )
-                for label in "ab"
-            }
+            slowed = slowed_by(values)
             return _held_closing_speeds(kind, values, share_a, share_b, reduced, slowed)
         if kind == "energy_loss":
             found = losing_speed(values["energy_loss"] / reduced, values["restitution"])

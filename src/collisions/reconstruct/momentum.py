@@ -44,6 +44,7 @@ from .common import (
     raise_or_warn,
     read_masses,
     state_instant,
+    state_other,
 )
 from .momentum_others import other_velocity
 from .momentum_solution import MomentumSolution, Sensitivity
@@ -133,7 +134,8 @@ def momentum(
     duration : float, str, Quantity or array [s], optional
         How long the contact lasts, > 0, for the tyres: 0.05 to 0.15 s for cars.
     tyres_a, tyres_b : travel.Tyres, optional
-        The wheels of each vehicle, which then needs its heading; one without has no tyre forces.
+        The wheels of each vehicle, which then needs its heading; one without has no tyre forces,
+        and ``.statements`` say what they would change.
         The answer is the one to which the balance without tyres leads. Of one velocity before,
         sought whole, others are looked for where the vehicle is so slow that its tyres turn it.
     yaw_rate_a_after, yaw_rate_b_after : float, str, Quantity or array [rad/s], optional
@@ -316,6 +318,9 @@ def momentum(
         )
         if lasting is None:
             state_instant("momentum")
+        else:
+            masses = numbers["mass_a"], numbers["mass_b"]
+            state_other("momentum", lasting.tyres, masses)
         known = _Known(cases, numbers, angles, terms, impulse, normal, unlike, lasting)
         return in_units_of(
             _solve(known, given if cases.shape is None else None, on_failure),

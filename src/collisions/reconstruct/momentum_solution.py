@@ -184,18 +184,20 @@ class MomentumSolution(Shown):
 
     @property
     def statements(self) -> tuple[str, ...]:
-        """What has to be said beside the numbers: without tyres, by how much the speeds would
-        differ if all wheels slid for 0.1 s with a drag of 0.7; with them, which other
-        velocities fit too, or that others may and were not looked for.
+        """What has to be said beside the numbers: without tyres, or without those of one vehicle,
+        by how much the speeds would differ if these wheels slid for 0.1 s, or the duration given,
+        with a drag of 0.7; with them, which other velocities fit too, or that others may and were
+        not looked for.
         """
         say = Sentences(self._texts())
-        if self.tyres:
-            other = other_velocity(self)
-            if other is not None:
-                return (other.sentence(self, say),)
-            return (self._not_looked_for(),) if self._may_have_others() else ()
         found = neglected(self, float(USUAL_DURATION), 0.7, lambda value, kind: say(value, kind, 2))
-        return () if found is None else (found.sentence,)
+        said = () if found is None else (found.sentence,)
+        if not self.tyres:
+            return said
+        other = other_velocity(self)
+        if other is not None:
+            return *said, other.sentence(self, say)
+        return (*said, self._not_looked_for()) if self._may_have_others() else said
 
     def _may_have_others(self) -> bool:
         """Whether another pair may fit, as small changes of the tyres' impulse move what was found

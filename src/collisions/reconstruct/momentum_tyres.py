@@ -16,7 +16,7 @@ from ..kernels.status import Status
 from ..messages.errors import InputError, MissingInputError
 from ..quantities.reading import ArgumentReader
 from ..vehicle.drag import GRAVITY
-from ..vehicle.tyres import Tyres
+from ..vehicle.tyres import Tyres, lacking
 from .lasting import numbers_of_times, tyre_faults
 
 if TYPE_CHECKING:
@@ -146,6 +146,16 @@ def read_tyres(
     return Lasting(found["duration"], own, rates) if own and "duration" in found else None
 
 
+def tyres_lacking(solution: MomentumSolution) -> tuple[str, ...]:
+    """The vehicles, "a" and "b", whose tyres are not in the balance and could be."""
+    return lacking(solution.tyres, solution.mass_a, solution.mass_b)
+
+
+def lasts(solution: MomentumSolution, otherwise: float) -> float:
+    """How long the contact takes for the tyres that are not in the balance."""
+    return _middle(solution.duration) if solution.tyres else otherwise
+
+
 class Neglect(NamedTuple):
     """How far tyres would change the speeds, or the speed and the course, that were found; the
     largest change of a velocity as a share of its speed; and the sentence for it.
@@ -170,18 +180,21 @@ def _in_words(name: str) -> str:
 def neglected(
     solution: MomentumSolution, duration: float, drag: float, say: Callable[[float, str], str]
 ) -> Neglect | None:
-    """What an answer without tyres leaves out if all wheels slid: the change of both speeds found,
-    or of a speed and a course, in a batch in the median; None of an answer with tyres, and where
-    there is none.
+    """What an answer without tyres, or without those of one vehicle, leaves out if these wheels
+    slid: the change of both speeds found, or of a speed and a course, in a batch in the median;
+    None of an answer with the tyres of both, and where there is none.
 
-    ``say`` writes a number of a kind, "speed" or "angle".
+    ``say`` writes a number of a kind, "speed" or "angle". The duration is that of the answer, where
+    it has one.
     """
-    if solution.tyres:
+    labels = tyres_lacking(solution)
+    if not labels:
         return None
+    duration = lasts(solution, duration)
     push_x: Any = 0.0
     push_y: Any = 0.0
     with np.errstate(all="ignore"):
-        for label in "ab":
+        for label in labels:
             before, after = (_velocity(solution, f"speed_{label}{when}") for when in ("", "_after"))
             mass = getattr(solution, f"mass_{label}")
             x, y = sliding(mass, before, after, drag, duration)
@@ -202,6 +215,13 @@ def neglected(
         f"with a drag of {drag:.2g}, {' and '.join(parts)}; give `duration=` and `tyres_a=`, "
         "`tyres_b=`"
     )
+    if solution.tyres:
+        (label,) = labels
+        sentence = (
+            f"found without the tyres of vehicle {label.upper()}: if its wheels slid for "
+            f"{duration:.3g} s with a drag of {drag:.2g}, {' and '.join(parts)}; give "
+            f"`tyres_{label}=`"
+        )
     return Neglect(changes, max(shares), sentence)
 
 

@@ -53,6 +53,7 @@ from .common import (
     split_texts,
     state_instant,
     state_motion,
+    state_other,
 )
 from .lasting import misses_of_impacts, numbers_of_times, settle, tyre_faults
 from .origins import End, Given, Origin
@@ -140,7 +141,8 @@ def planar(
         then go on approaching.
     duration, tyres_a, tyres_b
         As for ``eccentric``: how long the contact lasts, and the wheels that act on the ground
-        meanwhile. An ``energy_loss`` is then that of the contact, without what the tyres take.
+        meanwhile; one without has no tyre forces, and ``.statements`` say what they would change.
+        An ``energy_loss`` is then that of the contact, without what the tyres take.
     on_failure : {None, "raise", "nan"}, optional
         What to do with a refused case of a batch.
 
@@ -374,6 +376,7 @@ def _answer(
     if inputs.tyres:
         state_of_study(f"planar with tyres: {LOOKED_AROUND}", "looked_for")
         state_motion("planar")
+        state_other("planar", inputs.tyres, (inputs.a.mass, inputs.b.mass))
     else:
         state_instant("planar")
     velocity = found.closing_speed, found.slip_before

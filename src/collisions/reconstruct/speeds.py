@@ -41,6 +41,7 @@ from .common import (
     read_amounts,
     state_instant,
     state_motion,
+    state_other,
 )
 from .lasting import numbers_of_times
 from .recorder_place import by_own_names, read_recorders
@@ -176,18 +177,18 @@ def speeds(
         taken to keep one direction and to rise and fall like that of a spring, as in ``left_out``;
         headings are those of maximum engagement, as everywhere in an impulse.
     tyres_a, tyres_b : travel.Tyres, optional
-        The wheels that act on the ground meanwhile, as for ``eccentric``. A known delta-V has their
-        part in it, which is taken to pass as that of the contact does where axes turn; known
-        energies are those of the contact, and not taken together with a recorder, axes or ``slid``,
-        nor with components and ``friction=inf`` unless the contact is stated to have stuck, as
-        several fit, each with another ratio. Answers are looked for from those of an instant
-        without tyres and from a grid of other speeds, but for readings at a recorder's place, a
-        bound, and more components than are needed without a speed or an energy: one that none of
-        these leads to is missed, as ``.statements`` say. Beside a known speed and one other known
-        value there is no such grid: the unknown speed is looked through both ways to 60 m/s, three
-        times what both stand for or twice the answers of the instant, whichever is most, in 64
-        steps each way, and 256 to a step where an answer may be near; two answers between two of
-        the 64 may be missed.
+        The wheels that act on the ground meanwhile, as for ``eccentric``; one without has no tyre
+        forces, and ``.statements`` say what they would change. A known delta-V has their part in
+        it, which is taken to pass as that of the contact does where axes turn; known energies are
+        those of the contact, and not taken together with a recorder, axes or ``slid``, nor with
+        components and ``friction=inf`` unless the contact is stated to have stuck, as several fit,
+        each with another ratio. Answers are looked for from those of an instant without tyres and
+        from a grid of other speeds, but for readings at a recorder's place, a bound, and more
+        components than are needed without a speed or an energy: one that none of these leads to is
+        missed, as ``.statements`` say. Beside a known speed and one other known value there is no
+        such grid: the unknown speed is looked through both ways to 60 m/s, three times what both
+        stand for or twice the answers of the instant, whichever is most, in 64 steps each way, and
+        256 to a step where an answer may be near; two answers between two of the 64 may be missed.
     forward_only : bool
         Leave out the impacts in which a vehicle moves backwards along its course.
     regime : {"sticking", "sliding"}, optional
@@ -317,6 +318,8 @@ def speeds(
             state_of_study(f"speeds with tyres: {looked_for(names)}", "looked_for")
             attempt = search.while_tyres_act(attempt)
             state_motion("speeds")
+            masses = search.inputs.a.mass, search.inputs.b.mass
+            state_other("speeds", search.inputs.tyres, masses)
         else:
             also_missing = "" if given["duration"] is not None else "`duration=`, "
             state_instant("speeds", f"{also_missing}`tyres_a=` and `tyres_b=`")

@@ -18,7 +18,7 @@ from ..diagnostics.finding import Findings, is_note, letter_of
 from ..diagnostics.moves import Moves
 from ..impact.impact import Impact
 from ..impact.instant import LIMITED, found_with_tyres, neglected
-from ..impact.left_out import LeftOutVehicle, left_out
+from ..impact.left_out import LeftOutVehicle, left_out, tyres_held, tyres_lacking
 from ..impact.models import BY_NAME
 from ..impact.reconstruction import number_of_text
 from ..kernels.contact_laws import FRICTION, LAWS
@@ -92,6 +92,7 @@ _TYRES = (
     f"as an impulse from outside, {LIMITED}; wheels roll, brake and steer, with the force that "
     "they have on the way to rest."
 )
+_OWN = "delta-V from its own tyres"
 _RANGE = (
     reference.RESTITUTION_FIT,
     reference.RESTITUTION_LOW_SPEED,
@@ -498,6 +499,11 @@ def assumptions(
         ends = ", and comes back" if back else ""
         lines.append(("Tangential impulse:", f"{impact.regime}: {_REGIMES[impact.regime]}{ends}."))
     vehicles = (impact.a.before, impact.b.before)
+    held, lacking = tyres_held(impact), tyres_lacking(impact)
+    whose, other = "both vehicles", ""
+    if held and lacking:
+        whose = plain(who("ab".index(lacking[0]), getattr(impact.inputs, lacking[0])))
+        other = f" The tyres of {whose} were not given, and do not act."
     pivots = " but the pivot's" if any(vehicle.pivot is not None for vehicle in vehicles) else ""
     outside = (
         ", unless an impulse from outside is given" if impact.inputs.outside_a is not None else ""
@@ -508,10 +514,8 @@ def assumptions(
             lines.append(
                 (
                     "Tyres:",
-                    (
-                        "wheels roll, brake and steer, with the force that they have on the way "
-                        "to rest."
-                    ),
+                    "wheels roll, brake and steer, with the force that they have on the way to "
+                    f"rest.{other}",
                 )
             )
         if impact.inputs.drag and any(vehicle.heading is None for vehicle in vehicles):
@@ -527,7 +531,7 @@ def assumptions(
     else:
         left = "the forces of the tyres"
         if impact.inputs.tyres and impact.model == "eccentric":
-            lines.append(("Tyres:", _TYRES))
+            lines.append(("Tyres:", _TYRES + other))
             left = "other forces of the ground"
         instant = (
             "it acts in an instant, along one normal that points from A into B. Positions, "
@@ -569,18 +573,28 @@ def assumptions(
         vehicle.pivot is None and math.isfinite(float(vehicle.mass)) for vehicle in vehicles
     )
     but = ", except what is marked as a bound" if bounded else ""
-    held = impact.inputs.tyres and impact.model == "eccentric"
-    tyres = (
-        "beside the tyres, which are in it" if held else f"and tyres with a drag factor of {drag}"
-    )
+    if impact.model != "eccentric":
+        held = ()
+    tyres = f"and tyres with a drag factor of {drag}"
+    if held:
+        tyres = "beside the tyres, which are in it"
+        if lacking:
+            tyres = f"with tyres of {whose} that have a drag factor of {drag}, beside those in it"
+    assumed = not held or bool(lacking)
     sheet.fold(f"What the model leaves out, for a contact of {time} {tyres} (estimates{but}):")
     crush = "not known: the impact is incomplete"
     if impact.complete:
         crush = sheet.system.answer(float(found.mutual_crush), "length")
     rows = [
         ("contact", "duration taken", _with(time, notes.get("duration"))),
-        *([] if held else [("contact", "drag of the tyres taken", _with(drag, notes.get("drag")))]),
-        *([] if held else [("contact", what, text) for what, text in _published(impact, "drag")]),
+        *(
+            [
+                ("contact", "drag of the tyres taken", _with(drag, notes.get("drag"))),
+                *(("contact", what, text) for what, text in _published(impact, "drag")),
+            ]
+            if assumed
+            else []
+        ),
         ("contact", "maximum mutual crush", crush),
         (
             "contact",
@@ -592,7 +606,10 @@ def assumptions(
         if math.isfinite(float(vehicle.mass)):
             rows += [
                 (plain(who(index, vehicle)), what, text)
-                for what, text in _left_out(sheet, side, impact.model, vehicle)
+                for what, text in _left_out(
+                    sheet, side, impact.model, vehicle, whose if assumed else ""
+                )
+                if not ("ab"[index] in held and what.startswith(_OWN))
             ]
     sheet.table(rows)
     sheet.unfold()
@@ -644,8 +661,13 @@ def _pulse(sheet: Sheet, impact: Impact) -> None:
 
 
 def _left_out(
-    sheet: Sheet, side: LeftOutVehicle, model: str, vehicle: Vehicle
+    sheet: Sheet,
+    side: LeftOutVehicle,
+    model: str,
+    vehicle: Vehicle,
+    whose: str,
 ) -> Iterator[tuple[str, str]]:
+    """Rows of one vehicle; ``whose`` tyres were left out, if any."""
     # Tyres of a body that turns about a pivot act on it by their levers, which are not known.
     own = "upper bound" if vehicle.pivot is None else "about"
     way = (
@@ -655,8 +677,8 @@ def _left_out(
     yield "travel during the contact (x, y)", ", ".join(way)
     if model == "eccentric":
         yield "rotation during the contact", sheet.system.answer(float(side.rotation), "angle")
-    own_tyres = f"delta-V from its own tyres, {own}", ""
-    both_tyres = "change of delta-V by the tyres of both vehicles", "speeds that the tyres leave"
+    own_tyres = f"{_OWN}, {own}", ""
+    all_tyres = f"change of delta-V by the tyres of {whose}", "speeds that the tyres leave"
     later = (
         "places and the normal of other moments of the contact, in which the bodies part as a rule"
     )
@@ -665,8 +687,8 @@ def _left_out(
         later,
     )
     for (what, other), change, share in (
-        (own_tyres, side.tyre_delta_v_bound, side.tyre_share_bound),
-        (both_tyres, side.tyre_delta_v, side.tyre_share),
+        *([(own_tyres, side.tyre_delta_v_bound, side.tyre_share_bound)] if whose else []),
+        *([(all_tyres, side.tyre_delta_v, side.tyre_share)] if whose else []),
         (moved, side.geometry_delta_v, side.geometry_share),
     ):
         if change is not None and share is not None:

@@ -5,7 +5,7 @@ ground.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from operator import attrgetter
 from typing import TYPE_CHECKING, Any
@@ -331,6 +331,16 @@ def refuse_lifting(tyres: Mapping[str, Any], friction: Any, texts: Iterable[Any]
             code="wheel_lifts",
             argument="height",
         )
+
+
+def lacking(held: Collection[str], mass_a: Any, mass_b: Any) -> tuple[str, ...]:
+    """The vehicles, "a" and "b", without tyres that could have some, beside those ``held`` by
+    theirs: a body of infinite mass has none.
+    """
+    masses = {"a": mass_a, "b": mass_b}
+    return tuple(
+        label for label, mass in masses.items() if label not in held and np.any(np.isfinite(mass))
+    )
 
 
 def kernel_numbers(flat: Mapping[str, Any], xp: Any = math) -> Numbers:
