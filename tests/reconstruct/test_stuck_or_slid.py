@@ -468,6 +468,50 @@ def test_a_batch_is_its_cases():
     assert left.reconstruction.answers.tolist() == [0, 0, 2]
 
 
+@pytest.mark.parametrize(
+    ("friction", "more"),
+    [
+        (0.4, {"slid": "bound"}),
+        (np.array([0.4, 0.45]), {"slid": "bound"}),
+        (math.inf, {"speed_b": 6.0}),
+    ],
+)
+def test_a_case_that_stuck_has_the_friction_that_was_given(friction, more):
+    """Beside one that slid at a ratio that the components show."""
+    a = col.Vehicle(mass=1500, yaw_inertia=2500, x=-2.0, y=0.3, heading=0.0)
+    b = col.Vehicle(mass=1300, yaw_inertia=2100, x=1.5, y=-0.585, heading=1.4)
+    met = {"restitution": 0.1, "normal": 0.15826, "point": (0.0, 0.0)}
+    courses = {"course_a": 0.0, "course_b": 1.2364}
+    components = {
+        "delta_v_forward_a": np.array([-5.84322, -5.78948]),
+        "delta_v_left_a": np.array([0.50421, 0.91524]),
+    }
+    if "speed_b" in more:
+        # Within two percent of what a contact that slides at 0.2 shows, and one that sticks.
+        components = {
+            "delta_v_forward_a": np.array([-6.406, -7.95]),
+            "delta_v_left_a": np.array([0.253, 2.186]),
+        }
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", col.CollisionsWarning)
+        (many,) = speeds(a, b, **courses, **met, **components, friction=friction, **more)
+        slid, stuck = many.case(0), many.case(1)
+    assert (slid.regime, stuck.regime) == ("sliding", "sticking")
+    given = float(np.broadcast_to(friction, 2)[1])
+    assert slid.friction == pytest.approx(abs(slid.impulse_ratio), rel=1e-9)
+    assert "friction" in slid.reconstruction.found
+    assert stuck.friction == given
+    assert "friction" not in {*stuck.reconstruction.found, *stuck.reconstruction.given}
+    assert "friction" not in stuck.to_dict()["results"]["reconstruction"]["found"]
+    report = col.report(stuck, form="markdown", figures=False)
+    reporting.replay(report)
+    for page in (col.explain(stuck, form="text"), report):
+        (line,) = (row for row in page.splitlines() if "friction (bound" in row)
+        assert "found" not in line
+    rows = col.explain(slid, form="text").splitlines()
+    assert "found" in next(row for row in rows if "friction (bound" in row)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "known",

@@ -44,7 +44,6 @@ from .inputs import (
     ModelName,
     OnFailure,
     index_of,
-    part_of,
     part_of_inputs,
 )
 from .models import model_of, read_again
@@ -956,11 +955,12 @@ def part_of_impact(
 
         choice = part_of_choice(impact.choice, take)
     part = solved(inputs, on_failure=on_failure, choice=choice)
-    return (
-        part
-        if origin is None
-        else found_by(part_of(origin, take), inputs, part._answer, take(impact.status))
-    )
+    if origin is None:
+        return part
+    from .reconstruction import part_of_origin
+
+    own = part_of_origin(origin, take, impact.inputs.rule_value)
+    return found_by(own, inputs, part._answer, take(impact.status))
 
 
 def found_by(origin: Reconstruction, inputs: Inputs, raw: Any, status: Any) -> Impact:

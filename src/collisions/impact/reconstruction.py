@@ -5,13 +5,14 @@ that was.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, field, fields, replace
 from functools import reduce
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..kernels.contact_laws import FRICTION
 from ..kernels.elementwise import UNCHECKED, select
 from ..kernels.status import Status
 from ..quantities.attributes import equal, read_only
@@ -20,6 +21,7 @@ from ..quantities.formatting import SI_UNITS
 from ..quantities.reading import ArgumentReader
 from ..quantities.units import Value
 from ..vehicle.drag import read_drag
+from .inputs import part_of
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -57,7 +59,8 @@ class Reconstruction:
         known both ways. A speed is a size here, also of a vehicle that goes backwards.
     found : tuple of str
         What was found of the state before and of the contact, by name: "speed_a", "speed_b", and
-        where they were sought "course_a", "yaw_rate_a", "restitution", "friction" and so on.
+        where they were sought "course_a", "yaw_rate_a", "restitution", "friction" and so on. In a
+        batch "friction" was found of some cases, and ``case`` says of which.
     given : dict of str to float or array
         Numbers of ``known``, and of the courses or motions that came with them, as they were given
         [SI]. A reading of a recorder away from the centre of mass is "reading_forward_a" and so
@@ -254,6 +257,23 @@ def known_in_words(names: Iterable[str]) -> list[str]:
         for name in names
         if name not in _WITH_A
     ]
+
+
+def part_of_origin(
+    origin: Reconstruction, take: Callable[[Any], Any], rule_value: Any
+) -> Reconstruction:
+    """That of some cases of a batch: a friction that was found of others alone was given here."""
+    part: Reconstruction = part_of(origin, take)
+    if FRICTION not in origin.found or not isinstance(rule_value, np.ndarray):
+        return part
+    given = np.asarray(origin.given.get(FRICTION, math.inf), dtype=rule_value.dtype)
+    if np.any(take(rule_value != given)):
+        return part
+    return replace(
+        part,
+        found=tuple(name for name in part.found if name != FRICTION),
+        given={name: number for name, number in part.given.items() if name != FRICTION},
+    )
 
 
 def origin_where_answered(origin: Reconstruction, status: Any) -> Reconstruction:
