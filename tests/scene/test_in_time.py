@@ -275,3 +275,27 @@ def test_a_drag_does_not_act_during_a_contact_in_time_and_that_is_said() -> None
     assert "the drag of A does not act" in notice.sentence
     bare = Scene(movers=movers | {"A": movers["A"].replace(drag=0.0)}, contacts=[hit]).run()
     assert all(one.code != "drag_during_contact" for one in bare.findings)
+
+
+@pytest.mark.parametrize("model", ["eccentric", "solve"])
+def test_nor_does_it_act_beside_the_impulse_of_the_tyres_of_the_other(model) -> None:
+    """The struck car goes on by the velocity after the impact until the contact has passed."""
+    movers = {
+        "A": Mover(car(x=-8.0, vx=6.0), outline=(4.0, 1.8), tyres=Tyres(0.7, 0.3, 2.7, 1.5)),
+        "B": Mover(car(x=0.0), outline=(4.0, 1.8), drag=0.7),
+    }
+    given = {"restitution": 0.1, "friction": 0.5, "at": "touch", "model": model, "duration": 0.1}
+    more = {"tolerance": 2.0} if model == "solve" else {}
+    run = Scene(movers=movers, contacts=[Contact("A", "B", **given, **more)]).run()
+    if run.impacts[0].pulse is None:
+        meanwhile = run.at(run.times[0] + 0.09)["B"].vx
+        assert meanwhile == pytest.approx(run.impacts[0].b.after.vx, rel=1e-12)
+    for findings in (run.findings, col.diagnose(run)):
+        (notice,) = [one for one in findings if one.code == "drag_during_contact"]
+        assert "the drag of B does not act" in notice.sentence
+    two = {"A": movers["A"].replace(vehicle=car(x=-8.0, vx=np.array([6.0, 7.0])))}
+    batch = Scene(movers=movers | two, contacts=[Contact("A", "B", **given, **more)])
+    with pytest.warns(col.OutOfRangeWarning) as caught:
+        batch.run()
+    said = [str(one.message) for one in caught]
+    assert any("in 2 of 2 cases of the scene a drag does not act" in one for one in said)

@@ -204,7 +204,7 @@ class Followed:
         self.notices: list[Notice] = []
         self.failed: Any = np.full(self.count, "", dtype=object)
         # Whether two vehicles of a case go through or into each other after their contact, whether
-        # a drag does not act in one that is followed in time, whether two touch and no contact
+        # a drag does not act in one that has a duration, whether two touch and no contact
         # says what happens, and whether a touch is passed over as nothing pushes in it.
         self.driven: Any = np.zeros(self.count, dtype=bool)
         self.dragless: Any = np.zeros(self.count, dtype=bool)
@@ -745,7 +745,7 @@ class Followed:
         self._keep_touches(pair, which, time)
         pair.due[which], pair.touch[which], pair.apart[which] = np.inf, np.nan, False
         pair.least[which], pair.begun[which] = _AGAIN, np.nan
-        if contact.in_time:
+        if contact.duration is not None:
             self._note_drags(contact, which, time)
         if pair.shapes is not None:
             met, *_ = self._pair(pair).at(time, which)
@@ -761,7 +761,7 @@ class Followed:
             self._disturbed(other, which, (time, ends), before.get(id(other)))
 
     def _note_drags(self, contact: Contact, which: Any, time: Any) -> None:
-        """Note vehicles whose drag does not act during a contact that is followed in time."""
+        """Note vehicles whose drag does not act during a contact that has a duration."""
         drags = {name: self.movers[name].drag for name in (contact.a, contact.b)}
         slid = [name for name, drag in drags.items() if drag is not None and np.any(drag)]
         if not slid:
@@ -769,7 +769,7 @@ class Followed:
         self.dragless[which] = True
         if self.single:
             text = (
-                f"during the contact of {contact.a} and {contact.b}, which is followed in time, "
+                f"during the contact of {contact.a} and {contact.b}, which has a duration, "
                 f"the drag of {' and '.join(slid)} does not act; tyres in place of a drag do"
             )
             names = contact.a, contact.b

@@ -814,7 +814,7 @@ _DRIVEN = (
     "delta-V of a recorder, or speed and course right after the impact, such as "
     "'impacts[0].a.after.course'"
 )
-_DRAGLESS = "a drag does not act during a contact that is followed in time; tyres in its place do"
+_DRAGLESS = "a drag does not act during a contact that has a duration; tyres in its place do"
 _UNDESCRIBED = (
     "two vehicles touch, and no contact says what happens; they are followed as if they passed "
     "through each other"
