@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 import re
+from typing import Any
 
 import pytest
 
@@ -50,6 +51,46 @@ def test_what_the_scene_leaves_open_comes_last() -> None:
     assert (last.code, last.sentence, last.time) == (notice.code, notice.sentence, notice.time)
     assert last.code == "touch_without_contact"
     assert last.impact is None
+
+
+@pytest.mark.parametrize("given", ["90 deg", math.pi / 2.0])
+def test_no_unit_is_asked_of_what_the_scene_worked_out(given: Any) -> None:
+    """A car that is struck, at 100 mph, spins by more than a turn before it meets a truck."""
+    camry, civic, truck = three_cars().scene.movers.values()
+    movers = {
+        "Camry": camry.replace(vehicle=camry.vehicle.replace(vx="100 mph")),
+        "Civic": civic.replace(vehicle=civic.vehicle.replace(heading=given, y=0.6)),
+        "Truck": truck.replace(vehicle=truck.vehicle.replace(x=14.0, y=9.0)),
+    }
+    hit = Contact("Camry", "Civic", restitution=0.1, friction=0.5, normal=0.0, point=(0.0, -0.6))
+    then = Contact("Civic", "Truck", restitution=0.2, friction=0.4, at="touch")
+    run = Scene(movers=movers, contacts=[hit, then]).run()
+    impact = run.impacts[1]
+    turned = impact.a.before.heading - run.impacts[0].b.before.heading
+    assert abs(turned) > 2.0 * math.pi
+    found = col.diagnose(run)
+    assert not [one for one in found if one.code.startswith("suspect") and "meant?" in one.sentence]
+    assert "suspect_angle" in found.measured
+
+
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+def test_a_unit_is_asked_of_what_was_given_to_a_scene() -> None:
+    """Degrees, km/h and degrees/s as bare numbers, of a car that has come some way since."""
+
+    def mover(**state: Any) -> Mover:
+        body = {"mass": 1500, "yaw_inertia": 2600, "y": 0.0, "heading": 0.0} | state
+        return Mover(col.Vehicle(**body))
+
+    contact = Contact("A", "B", restitution=0.1, friction=0.5, normal=0.0, point=(0.0, 0.0), at=0.1)
+    a, b = mover(x=-12.0, vx=90.0, heading=90.0), mover(x=1.0, yaw_rate=25.0)
+    run = Scene(movers={"A": a, "B": b}, contacts=[contact]).run()
+    said = {one.code: one.sentence for one in col.diagnose(run)}
+    assert (
+        "vehicle A has a heading of 90 rad, 14.3 turns; were degrees meant?"
+        in said["suspect_angle"]
+    )
+    assert "goes at 90 m/s before; were km/h or mph meant?" in said["suspect_speed"]
+    assert "turns at 25 rad/s before; were degrees/s meant?" in said["suspect_yaw_rate"]
 
 
 def test_limits_count_for_every_impact() -> None:

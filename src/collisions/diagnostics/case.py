@@ -115,6 +115,10 @@ class MomentumCase(_Case):
 
     answer: MomentumSolution
 
+    def was_found(self, label: str, name: str) -> bool:
+        """Whether a speed before was not given, but found."""
+        return f"{name}_{label}" in self.answer.found
+
     @cached_property
     def vehicles(self) -> dict[str, VehicleFigures]:
         """Both vehicles by label."""
@@ -160,6 +164,20 @@ class ImpactCase(_Case):
     answer: Impact
     outlines: dict[str, Any]
     left_out: LeftOut | None
+    # By label, of an impact of a scene, as they were given at the start of that.
+    starts: Mapping[str, Vehicle] = field(default_factory=dict)
+
+    def stated(self, label: str) -> Vehicle:
+        """A vehicle as it was given: of an impact of a scene at the start of that."""
+        return self.starts.get(label, getattr(self.answer, label).before)
+
+    def was_found(self, label: str, name: str) -> bool:
+        """Whether a part of the motion before was not given, but found, or followed from the start
+        of a scene.
+        """
+        start, before = self.stated(label), getattr(self.answer, label).before
+        as_given = math.isclose(getattr(start, name), getattr(before, name), rel_tol=1e-9)
+        return f"{name}_{label}" in self.answer.found or not as_given
 
     @cached_property
     def vehicles(self) -> dict[str, VehicleFigures]:
@@ -172,8 +190,8 @@ class ImpactCase(_Case):
                 side.delta_v,
                 side.pdof,
                 side.before.heading,
-                mass_has_unit="mass" in (side.before.given or {}),
-                speed_has_unit=_speed_has_unit(side.before)
+                mass_has_unit="mass" in (self.stated(label).given or {}),
+                speed_has_unit=_speed_has_unit(self.stated(label))
                 or isinstance((self.answer.inputs.given or {}).get(f"speed_{label}"), str),
             )
             for label, who, side in self.sides

@@ -57,7 +57,7 @@ def suspect_speed(case: Case) -> Iterator[Measured]:
         who, speed = vehicle.who, abs(vehicle.speed)
         fast = case.text(speed, "speed")
         sentence = f"{who} goes at {speed:.6g} m/s before; were km/h or mph meant?"
-        if f"speed_{label}" in case.answer.found:
+        if case.was_found(label, "speed"):
             sentence = f"{who} was found to go at {fast} before; check what was given"
         elif vehicle.speed_has_unit:
             sentence = f"{who} goes at {fast} before; check its unit"
@@ -74,9 +74,9 @@ def suspect_yaw_rate(case: ImpactCase) -> Iterator[Measured]:
         rate = side.before.yaw_rate
         quick = case.text(rate, "yaw rate")
         sentence = f"{who} turns at {rate:.6g} rad/s before; were degrees/s meant?"
-        if f"yaw_rate_{label}" in case.answer.found:
+        if case.was_found(label, "yaw_rate"):
             sentence = f"{who} was found to turn at {quick} before; check what was given"
-        elif "yaw_rate" in (side.before.given or {}):
+        elif "yaw_rate" in (case.stated(label).given or {}):
             sentence = f"{who} turns at {quick} before; check its unit"
         yield Measured(abs(rate), sentence, label)
 
@@ -129,7 +129,8 @@ def suspect_lever(case: ImpactCase) -> Iterator[Measured]:
         ):
             lever = math.hypot(point[0] - vehicle.x, point[1] - vehicle.y)
             far = case.text(lever, "length")
-            stated = _has_units(vehicle, "x", "y") and _has_units(case.answer.inputs, "point")
+            stated = _has_units(case.stated(label), "x", "y")
+            stated &= _has_units(case.answer.inputs, "point")
             doubt = "positions and origin" if stated else "units (feet?) and origin"
             sentence = f"the contact point is {far} from the centre of mass of {who}; check {doubt}"
             rounding = off_by(vehicle.x, vehicle.y, *point)
@@ -183,7 +184,7 @@ def suspect_distance(case: ImpactCase) -> Iterator[Measured]:
     ):
         distance = math.dist(*places)
         far = case.text(distance, "length")
-        stated = all(_has_units(vehicle, "x", "y") for vehicle in vehicles)
+        stated = all(_has_units(case.stated(label), "x", "y") for label in "ab")
         doubt = "positions and origin" if stated else "units (feet?) and origin"
         sentence = f"the centres of mass are {far} apart at the impact; check {doubt}"
         longest = (
@@ -205,10 +206,10 @@ def suspect_angle(case: Case) -> Iterator[Measured]:
             (
                 label,
                 f"{who} has a heading of",
-                side.before.heading,
-                "heading" in (side.before.given or {}),
+                case.stated(label).heading,
+                "heading" in (case.stated(label).given or {}),
             )
-            for label, who, side in case.sides
+            for label, who, _ in case.sides
         ]
     else:
         for label in "ab":
@@ -241,9 +242,10 @@ def suspect_bare_angle(case: Case) -> Iterator[Measured]:
                 ("", "the normal", case.answer.normal_angle + turn)
                 for turn in (-math.tau, 0.0, math.tau)
             ]
-        for label, who, side in case.sides:
-            if "heading" not in (side.before.given or {}):
-                angles.append((label, f"the heading of {who}", side.before.heading))
+        for label, who, _ in case.sides:
+            vehicle = case.stated(label)
+            if "heading" not in (vehicle.given or {}):
+                angles.append((label, f"the heading of {who}", vehicle.heading))
     else:
         for name, given in (case.answer.given or {}).items():
             if name.startswith(("course", "heading")) and isinstance(given, (int, float)):

@@ -161,15 +161,39 @@ def diagnose(
     (0, 'contact point 0.25 m aside')
     """
     given = dict(locals())
-    # An implausible limit is intended, so it is not warned of; where units are required, it has
-    # one.
-    implausible = "limits['suspect_yaw_rate']", "limits['suspect_angle']"
     if isinstance(impact, Run):
         with callers_options():
             spoken = (
                 cast(UnitSystem, spoken_system(given_texts(impact))) if units is None else units
             )
-            return diagnose_run(impact, given, spoken, diagnose)
+        return diagnose_run(impact, given, spoken, partial(_of_one, **given))
+    return _of_one(**given)
+
+
+def _of_one(
+    impact: Impact | MomentumSolution,
+    *,
+    outline_a: Any,
+    outline_b: Any,
+    duration: Input,
+    drag: Input,
+    tyres_a: Tyres | None,
+    tyres_b: Tyres | None,
+    limits: Mapping[str, Any] | None,
+    crush_energy: Input | None,
+    damage_pdof_a: Input | None,
+    damage_pdof_b: Input | None,
+    damage_delta_v_a: Input | Pair | None,
+    damage_delta_v_b: Input | Pair | None,
+    units: UnitSystem | None,
+    starts: Mapping[str, Vehicle] = {},
+) -> Findings:
+    """The findings of one answer; ``starts`` has by label the vehicles of a scene as they were
+    given.
+    """
+    # An implausible limit is intended, so it is not warned of; where units are required, it has
+    # one.
+    implausible = "limits['suspect_yaw_rate']", "limits['suspect_angle']"
     need_one_case(impact, (Impact, MomentumSolution), "diagnose", runs=True)
     need_found_again(impact)
     with callers_options():
@@ -223,7 +247,7 @@ def diagnose(
     }
     case: Case
     if isinstance(impact, Impact):
-        case = ImpactCase(answer=impact, outlines=outlines, left_out=left, **known)
+        case = ImpactCase(answer=impact, outlines=outlines, left_out=left, starts=starts, **known)
     else:
         case = MomentumCase(answer=impact, **known)
     findings, measured = [], []

@@ -46,12 +46,13 @@ def diagnose_run(
                 code="bad_option",
                 argument=name,
             )
-    shared = {name: options[name] for name in ("duration", "drag", "limits")}
     found: list[Finding] = []
     measured: set[str] = set()
     moves: list[Move] = []
     for number, (pair, impact) in enumerate(zip(run.pairs, run.impacts, strict=True)):
-        own = diagnose(impact, units=units, **shared, **_outlines(run, number))
+        movers = zip("ab", run.pairs[number], strict=True)
+        starts = {label: run.scene.movers[name].vehicle for label, name in movers}
+        own = diagnose(impact=impact, units=units, starts=starts, **_outlines(run, number))
         measured |= own.measured
         found += [of_impact(one, run, number) for one in own]
         of = f"impact {number + 1}, {as_letters(pair)}"
