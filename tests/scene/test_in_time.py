@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 import collisions as col
+from collisions.impact.instant import neglected
 from collisions.scene import Contact, Mover, Run, Scene
 from collisions.travel import Tyres
 from crashes import three_cars
@@ -293,6 +294,12 @@ def test_nor_does_it_act_beside_the_impulse_of_the_tyres_of_the_other(model) -> 
     for findings in (run.findings, col.diagnose(run)):
         (notice,) = [one for one in findings if one.code == "drag_during_contact"]
         assert "the drag of B does not act" in notice.sentence
+    if run.impacts[0].model == "eccentric":
+        left = neglected(run.impacts[0], of_scene=True)
+        assert left is not None
+        assert left.sentence.startswith("found without the tyres of vehicle B: of delta-V")
+        assert left.sentence.endswith("for 0.1 s; give that vehicle its `tyres=`")
+        assert left.assumed == "drag"
     two = {"A": movers["A"].replace(vehicle=car(x=-8.0, vx=np.array([6.0, 7.0])))}
     batch = Scene(movers=movers | two, contacts=[Contact("A", "B", **given, **more)])
     with pytest.warns(col.OutOfRangeWarning) as caught:

@@ -668,7 +668,7 @@ def test_what_works_back_through_an_instant_says_what_that_leaves_out(study):
     assert text.endswith("finer= with time_resolved has that too")
     wheels = {"duration": TYRES["duration"], "tyres_a": TYRES["tyres_a"]}
     (text,) = said(by(col.eccentric, **wheels))
-    assert "which leaves out those of B, as tyres_b= was not given, and that point" in text
+    assert "leaves out those of vehicle B, as they were not given, and that point" in text
     (text,) = said(by(col.eccentric, outside_b=(100.0, 0.0)))
     assert "as an instant with the impulses from outside" in text
     assert not said(in_time)

@@ -486,9 +486,10 @@ class Impact(_SpeedsBefore, Frozen, Summarized):
     @property
     def statements(self) -> tuple[str, ...]:
         """What has to be said beside the numbers: of an impact that was found backwards as an
-        instant, how much of delta-V that leaves out, as ``left_out`` estimates it; of one that was
-        found with tyres or from readings of recorders, that there may be others, and how much the
-        motion during the contact is.
+        instant, how much of delta-V that leaves out, as ``left_out`` estimates it, or without the
+        tyres of one vehicle, how much these would change; of one that was found with tyres or from
+        readings of recorders, that there may be others, and how much the motion during the contact
+        is.
         """
         from .instant import found_from_readings, found_with_tyres, neglected
 

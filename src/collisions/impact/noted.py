@@ -13,6 +13,7 @@ from ..kernels.contact_laws import FRICTION
 from ..messages.errors import IllConditionedWarning
 from ..messages.warning import WORKED_BACK, in_study, state_of_study, warn_of_cases
 from ..reference import INTER_VEHICLE_FRICTION
+from ..vehicle.vehicle import with_name
 from .impact import Impact
 from .left_out import tyres_lacking
 from .run import state_refusals
@@ -37,9 +38,10 @@ def _left_by_tyres(impact: Impact) -> str:
     if not (lacking := tyres_lacking(impact)):
         return f"with the tyres, which leaves out {_LEFT_BY_TYRES}"
     label = lacking[0]
+    who = with_name(f"vehicle {label.upper()}", getattr(impact.inputs, label))
     return (
-        f"with the tyres of one vehicle alone, which leaves out those of {label.upper()}, as "
-        f"`tyres_{label}=` was not given, and {_LEFT_BY_TYRES}"
+        f"with the tyres of one vehicle alone, which leaves out those of {who}, as they were not "
+        f"given, and {_LEFT_BY_TYRES}"
     )
 
 
