@@ -199,7 +199,7 @@ def explain(
     >>> print(page[page.index("Restitution") : page.index("Found as")].rstrip())
     Restitution, as in (9):
       e = (v'_B - v'_A) / (v_A - v_B)
-        = (60 - 28.18) / (80 - 0)
+        = (60 - 28.182) / (80 - 0)
         = 0.3977
     """
     if units is not None:
