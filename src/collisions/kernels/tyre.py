@@ -51,6 +51,13 @@ def circle(cosine: Any, brake: Any, takes: Any = None) -> tuple[Any, Any]:
     return forward, greatest(1.0 - forward * forward, 0.0) ** 0.5
 
 
+def rotation_takes(lock: Any, gain: Any, most: Any) -> Any:
+    """What the rotation of a wheel takes of the ``most`` that the ground gives, from the mass of
+    its rotation times how fast its contact gains speed ahead. A wheel of ``lock`` 1 does not turn.
+    """
+    return _over(select(lock >= 1.0, 0.0, gain), most)
+
+
 def tyre_force(
     along: Any,
     across: Any,
@@ -213,8 +220,7 @@ def wheel_forces(
         for turn, (along, across), brake, mu, gain, load, lock in zip(
             turns, moving, shares, here, gains, loads, tyres.locks, strict=False
         ):
-            # A locked wheel does not turn.
-            takes = None if gain is None else _over(select(lock >= 1.0, 0.0, gain), load * mu)
+            takes = None if gain is None else rotation_takes(lock, gain, load * mu)
             x, y = tyre_force(along, across, brake, mu, tyres.cornering, standing, takes)
             found.append(
                 (x, y) if turn is None else (turn[0] * x - turn[1] * y, turn[1] * x + turn[0] * y)

@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from ..kernels.elementwise import UNIT_INTERVAL, select
-from ..kernels.tyre import circle, tyre_forces
 from ..messages.errors import InputError, MissingInputError, OutOfRangeWarning
 from ..messages.hints import hinted
 from ..messages.warning import warn
@@ -25,7 +24,8 @@ from ..quantities.reading import ArgumentReader
 from ..quantities.tables import Sentences
 from ..quantities.units import Input, Pair, Texts, Value, texts_of
 from ..vehicle.drag import one_value, read_friction
-from ..vehicle.tyres import LOCKS, Tyres, kernel_numbers, lifts, not_tyres, refuse_lifting
+from ..vehicle.tyres import LOCKS, Tyres, lifts, not_tyres, refuse_lifting
+from .legs import Wheels, legs_of
 from .surfaces import (
     Segments,
     durations_along,
@@ -77,7 +77,8 @@ class RunOut(Shown):
         For every segment, heading minus course, in (-pi, pi]: positive where the vehicle points to
         the left of its path.
     drags : tuple of float or array
-        For every segment, the drag factor that results from friction, lock and crab angle.
+        For every segment, the drag factor that results from friction, lock and crab angle; with
+        ``rotating_mass``, less what the wheels that turn take of it.
     speed_error, course_error, yaw_rate_error : float or array, optional [m/s], [rad], [rad/s]
         Standard errors of the three, from those of the positions and headings alone; None if these
         were not given.
@@ -165,7 +166,8 @@ def path(
         The four wheels, in place of ``lock``: for wheels that are braked unequally, for small crab
         angles, and for a vehicle that yaws.
     rotating_mass : float, str, Quantity or array [-]
-        What the rotation of the wheels adds to the mass, as in ``simulate``.
+        What the rotation of the wheels adds to the mass, as in ``simulate``; a locked wheel adds
+        nothing.
     grade : float, str, Quantity or array [-], or a list with one for each segment
         Rise over run, positive uphill in the direction of travel.
     end_speed : float, str, Quantity or array [m/s]
@@ -229,6 +231,11 @@ def path(
     at the limit of the warning mostly by 4 to 9 % with any lock, for a large radius of gyration by
     up to 12 %.
 
+    A wheel that turns has the spin of one that rolls, with ``rotating_mass``. Where ``lock`` or
+    ``friction`` changes from one segment to the next, the spin of a wheel that locks is taken by
+    its brake, which changes no speed; a wheel that is released is brought to its spin by the
+    ground, which slows the vehicle by the momentum of it.
+
     Positions and headings are smoothed first, each by a weighted least-squares parabola about its
     point (local regression, Cleveland, J. Am. Stat. Assoc. 74 (1979) 829, here of degree 2): chords
     between the points of a dense survey would be too long, and their directions would scatter. The
@@ -282,7 +289,7 @@ def path(
         frictions = [wheels.get("friction", math.nan)] * (legs or 1)
     else:
         frictions = for_each(reader, friction, "friction", legs, read_friction)
-    locks = [0.0] if lock is None else for_each(reader, lock, "lock", legs, _read_lock)
+    locks = for_each(reader, 0.0 if lock is None else lock, "lock", legs, _read_lock)
     rotating = one_value(reader, rotating_mass, "", "rotating_mass", UNIT_INTERVAL)
     grades = for_each(reader, grade, "grade", legs, read_grade)
     end = read_speed(reader, end_speed, "end_speed")
@@ -311,9 +318,15 @@ def path(
         (value.dtype for part in lists for value in part if isinstance(value, np.ndarray)), None
     )
 
-    wheeled = None if tyres is None else (tyres, flat)
-    say = Sentences(texts_of(surveyed))
-    ground = _Ground(frictions, locks, grades, wheeled, rotating, say)
+    none = isinstance(rotating, float) and rotating == 0.0
+    four = None if tyres is None else (tyres, flat)
+    ground = _Ground(
+        frictions,
+        locks,
+        grades,
+        Wheels(four, None if none else rotating),
+        Sentences(texts_of(surveyed)),
+    )
     run_out = partial(_run_out, ground=ground, end=end, window=length)
     with np.errstate(all="ignore"):
         turned = [
@@ -342,23 +355,21 @@ def path(
             found = settle(found, named, shape, checks)
         elif not (min(gaps) > 0.0 and math.isfinite(answered + found["course"])):
             raise out_of_range()
-        _warn_of_wide_segments(turned, locks if tyres is None else [0.0] * len(frictions))
+        _warn_of_wide_segments(turned, locks)
         if tyres is None:
             _warn_of_fast_yaw(found["yaw_rate"], found["speed"], locks[0])
     return in_units_of(RunOut(**found), texts_of(surveyed))
 
 
 class _Ground(NamedTuple):
-    """What slows a vehicle on each segment: friction, lock, grade; tyres with their numbers, if
-    given, in place of the lock; what the rotation of the wheels adds to the mass; and how an error
+    """What slows a vehicle on each segment: friction, lock, grade, its wheels; and how an error
     writes its numbers.
     """
 
     frictions: Sequence[Any]
     locks: Sequence[Any]
     grades: Sequence[Any]
-    tyres: tuple[Tyres, dict[str, Any]] | None
-    rotating: Any
+    wheels: Wheels
     say: Sentences
 
 
@@ -383,12 +394,15 @@ def _run_out(
         _wrapped(before + 0.5 * turn - math_or_numpy(dx, dy).atan2(dy, dx))
         for (dx, dy), before, turn in zip(steps, turned, turns, strict=False)
     ]
-    drags = _drags(ground, crabs, turns, lengths)
-    heavier = _heavier(ground, crabs)
-    after = heavier[-1] * end
+    legs = legs_of(ground.frictions, ground.locks, ground.grades, crabs, turns, lengths)
+    drags = [ground.wheels.drag(leg) for leg in legs]
+    heavier = ground.wheels.heavier(legs, drags)
     drops = [drag + rise for drag, rise in zip(drags, ground.grades, strict=True)]
-    speeds = speeds_along(lengths, drops, after, _leg, ground.say)
-    speeds = [speed / more for speed, more in zip(speeds, heavier, strict=True)]
+    longer = [length * more for length, more in zip(lengths, heavier, strict=True)]
+    speeds = speeds_along(longer, drops, end, _leg, ground.say)
+    between = [(one * two) ** 0.5 for one, two in pairwise(heavier)]
+    factors = [heavier[0], *between, heavier[-1]]
+    speeds = [speed / factor**0.5 for speed, factor in zip(speeds, factors, strict=True)]
     durations = durations_along(lengths, ground.grades, speeds)
     times = list(accumulate(durations, initial=0.0))
     # Beside a way or a time that is so much longer a segment is lost, and with it the tangent.
@@ -407,65 +421,6 @@ def _run_out(
         "drags": tuple(drags),
     }
     return found, durations + adds
-
-
-def _drags(
-    ground: _Ground, crabs: Sequence[Any], turns: Sequence[Any], lengths: Sequence[Any]
-) -> list[Any]:
-    """The drag of each segment."""
-    if ground.tyres is None:
-        return [
-            _drag(mu, part, crab)
-            for mu, part, crab in zip(ground.frictions, ground.locks, crabs, strict=True)
-        ]
-    tyres, flat = ground.tyres
-    found = []
-    for mu, crab, turn, length in zip(ground.frictions, crabs, turns, lengths, strict=True):
-        xp = math_or_numpy(crab, length, mu, *flat.values())
-        wheels = kernel_numbers(flat, xp)
-        cosine, sine = xp.cos(crab), xp.sin(crab)
-        # The turn per way is all that the slip of the wheels needs.
-        turning = turn / select(length > 0.0, length, math.nan)
-        around = turning * hypot(wheels.ahead, wheels.left)
-        speed = (1.0 + around * around) ** 0.5
-        x, y, _ = tyre_forces(
-            wheels,
-            (mu, mu, mu, mu),
-            cosine / speed,
-            -sine / speed,
-            turning / speed,
-            steered=tyres.steered,
-            transfers=tyres.transfers,
-        )
-        found.append(y * sine - x * cosine)
-    return found
-
-
-def _heavier(ground: _Ground, crabs: Sequence[Any]) -> list[Any]:
-    """At every point by how much the rotation of the wheels lets the vehicle count as faster, as
-    the energy of both together is what the ground takes.
-    """
-    if isinstance(ground.rotating, float) and ground.rotating == 0.0:
-        return [1.0] * (len(crabs) + 1)
-    if ground.tyres is None:
-        turning = [select(part < 1.0, 1.0, 0.0) for part in ground.locks]
-    else:
-        flat = ground.tyres[1]
-        each = [flat[name] if name in flat else flat["lock"] for name in LOCKS]
-        turning = [0.25 * sum(select(part < 1.0, 1.0, 0.0) for part in each)] * len(crabs)
-    shares = [
-        ground.rotating * part * math_or_numpy(crab).cos(crab) ** 2
-        for part, crab in zip(turning, crabs, strict=True)
-    ]
-    ends = [shares[0], *(0.5 * (one + two) for one, two in pairwise(shares)), shares[-1]]
-    return [(1.0 + share) ** 0.5 for share in ends]
-
-
-def _drag(friction: Any, lock: Any, crab: Any) -> Any:
-    """The drag of tyres that all slip at the crab angle."""
-    cosine, sine = math_or_numpy(crab).cos(crab), math_or_numpy(crab).sin(crab)
-    along, across = circle(cosine, lock)
-    return friction * (across * abs(sine) - along * cosine)
 
 
 def _refuse_combination(reader: ArgumentReader, friction: Any, lock: Any, tyres: Any) -> None:
