@@ -65,6 +65,11 @@ def of_planar():
     )
 
 
+def given_of(record):
+    """What a record says was given to its reverse solver."""
+    return record["impact"]["results"]["reconstruction"]["given"]
+
+
 def model(speed_a, speed_b):
     return {"x": 1500.0 * speed_a, "y": 1200.0 * speed_b}
 
@@ -459,6 +464,35 @@ def test_a_number_that_was_changed_in_a_record_is_refused(changed, said):
     page = report(of_speeds(speed_b=9.0, delta_v_a=CRASH.a.delta_v), form="markdown", figures=False)
     with pytest.raises(col.InputError, match=said):
         replay(tampered(page, lambda r: r["impact"]["results"]["reconstruction"].update(changed)))
+
+
+@pytest.mark.slow
+def test_a_duration_beside_tyres_and_a_recorder_that_was_changed_is_refused():
+    """The duration of the tyres is that of the recorder: what it was given stands twice."""
+    known = {f"delta_v_{way}_a": getattr(CRASH.a, f"delta_v_{way}") for way in ("forward", "left")}
+    tyres = col.travel.Tyres(0.7, 0.3, 2.7, 1.5)
+    found = of_speeds(**known, speed_b=9.0, recorder_a=(0.3, 0.2), duration=0.1, tyres_a=tyres)
+    page = report(found, form="markdown", figures=False)
+    for changed in (0.1001, -0.1):
+        with pytest.raises(col.InputError, match="duration was given to its reverse solver as"):
+            replay(tampered(page, lambda r, to=changed: given_of(r).update(duration=to)))
+
+
+def test_a_yaw_rate_after_that_was_changed_is_refused():
+    """Of which the energy, and so the speeds before, hardly depend on."""
+    found = of_planar()
+    page = report(found, form="markdown", figures=False)
+    rate = found.a.after.yaw_rate + 1e-4
+    with pytest.raises(col.InputError, match="does not lead to its speeds"):
+        replay(tampered(page, lambda r: given_of(r).update({"a_after.yaw_rate": rate})))
+
+
+def test_a_page_says_that_a_condition_with_a_function_cannot_be_checked_from_it():
+    """The record has the restitution alone, not how steep the function is."""
+    known = {"speed_b": 9.0, "delta_v_a": CRASH.a.delta_v}
+    said = "the condition, and whether it is named among the findings, can be checked with the"
+    assert said in explain(of_speeds(**known, restitution=lambda v: 0.1), form="text")
+    assert said not in explain(of_speeds(**known, restitution=0.1), form="text")
 
 
 def test_a_text_that_is_not_its_number_is_refused():

@@ -177,6 +177,12 @@ def what_was_known(page: Page, impact: Impact) -> None:
         "was given may become this many times as large in the speeds before, relative to the "
         "closing speed."
     )
+    if origin.method == "speeds" and "restitution" in origin.found:
+        page.say(
+            "The restitution was a function of the closing speed, and how steep it is adds to the "
+            "condition. Only its value stands here, so that the condition, and whether it is named "
+            "among the findings, can be checked with the function alone."
+        )
     if origin.answers > 1:
         page.stress(
             f"Not the only answer: {how_many(origin.answers)} fit what was known, and this is "

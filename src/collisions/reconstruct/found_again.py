@@ -17,6 +17,7 @@ from ..impact.reconstruction import KNOWN, AsRecorded, Reconstruction, known_in_
 from ..kernels.contact_laws import BRACH, FRICTION, RULES
 from ..messages.errors import CollisionsError, CollisionsWarning, InputError
 from ..quantities.settings import in_si
+from ..vehicle.vehicle import Vehicle
 from .central import central
 from .planar import Regime, planar
 from .speeds import speeds
@@ -104,6 +105,12 @@ def contradicted_origin(impact: Impact) -> Iterator[str]:
     if unsaid:
         does = "says" if unsaid & said else "does not say"
         yield f"it {does} what {min(unsaid)} was given to its reverse solver"
+    for name, value in again.given.items():
+        if name in origin.given and not _same_number(origin.given[name], value):
+            yield (
+                f"it says that {name} was given to its reverse solver as "
+                f"{origin.given[name]:.6g}, and its inputs have {value:.6g}"
+            )
     if origin.known != again.known:
         yield (
             f"its reconstruction was given {', '.join(origin.known)}, and solving again takes "
@@ -129,6 +136,10 @@ def contradicted_origin(impact: Impact) -> Iterator[str]:
             f"its inputs leave the speeds known by {again.one_sided or 'both sides'}, and it says "
             f"{origin.one_sided or 'both sides'}"
         )
+
+
+def _same_number(one: Any, other: Any) -> bool:
+    return math.isclose(one, other, rel_tol=_TIE) or (math.isnan(one) and math.isnan(other))
 
 
 def _same_condition(one: Reconstruction, other: Reconstruction) -> bool:
@@ -291,10 +302,19 @@ def _recorders(given: Mapping[str, float], names: Collection[str]) -> dict[str, 
 
 
 def _is_same(one: Impact, other: Impact) -> bool:
-    """Whether two impacts have the same speeds before and after, to what the condition leaves of
-    the digits.
+    """Whether two impacts have the same motions before and after, to what the condition leaves of
+    the digits; a yaw rate by the speed that it makes at the radius of gyration.
     """
     scale = abs(other.closing_speed)
     sides = [(getattr(one, label), getattr(other, label)) for label in "ab"]
     pairs = [pair for a, b in sides for pair in ((a.before, b.before), (a.after, b.after))]
-    return all(math.hypot(a.vx - b.vx, a.vy - b.vy) <= 1e-6 * scale for a, b in pairs)
+    return all(
+        math.hypot(a.vx - b.vx, a.vy - b.vy, _around(b) * (a.yaw_rate - b.yaw_rate)) <= 1e-6 * scale
+        for a, b in pairs
+    )
+
+
+def _around(body: Vehicle) -> float:
+    """The radius of gyration [m]; 0 where it is not known, or either is infinite."""
+    inertia, mass = body.yaw_inertia, body.mass
+    return math.sqrt(inertia / mass) if inertia is not None and math.isfinite(inertia) else 0.0
