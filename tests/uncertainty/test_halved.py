@@ -3,6 +3,7 @@
 import json
 import math
 import pickle
+import warnings
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ from collisions.uncertainty import (
     Interval,
     LogNormal,
     Normal,
+    OneSided,
     Samples,
     Triangular,
     Uniform,
@@ -345,3 +347,32 @@ def test_an_input_may_be_called_now():
     assert halved.without_answer_now == pytest.approx(none[1.0], abs=2e-3)
     assert halved.without_answer["now"] == pytest.approx(none[0.5], abs=2e-3)
     assert halved.without_answer["x"] == pytest.approx(none[1.0], abs=2e-3)
+
+
+@pytest.mark.parametrize(
+    ("whole", "first", "said", "share"),
+    [(1.0, "s", "The first row gains the most.", "no longer infinite"),
+     (0.5, "v", "None makes one narrower.", "same")],
+)  # fmt: skip
+def test_an_infinite_range_gains_where_half_an_error_makes_it_finite(whole, first, said, share):
+    """Cases below 0.2 are known from one side alone: of 0 to 1 a fifth, halved none, and of 0 to
+    0.5 two fifths and two tenths, where the other input makes no difference to it.
+    """
+
+    def model(v, s):
+        return {"v": OneSided(v, np.where(s < 0.2, 1, 0))}
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", col.CollisionsWarning)
+        found = propagate(
+            model, {"v": Normal(6.0, 0.3), "s": Uniform(0.0, whole)}, samples=2048, seed=1
+        ).if_halved()
+    assert found.now["v"] == math.inf
+    assert next(iter(found)) == first
+    assert found["v"]["v"] == math.inf
+    text = str(found)
+    assert said in text
+    row = next(line for line in text.splitlines() if line.strip().startswith("s "))
+    assert f"({share})" in row
+    if share != "same":
+        assert found["s"]["v"] == pytest.approx(2.0 * Z * 0.3, rel=0.02)

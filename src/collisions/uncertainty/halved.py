@@ -128,9 +128,10 @@ class Halved(Summarized):
             ]
             rows.append((name, *cells))
         what = "whole range" if self.coverage is None else f"{self.coverage:.0%} range"
+        least = min((_least_share(row, self.now) for row in self.widths.values()), default=1.0)
         note = (
             "Each row has the error of that input halved, as if better measurements had the same "
-            "mean. The first row gains the most."
+            f"mean. {'The first row gains the most' if least < 1.0 else 'None makes one narrower'}."
         )
         notes = [note]
         without = [("now", self.without_answer_now), *self.without_answer.items()]
@@ -253,13 +254,25 @@ def _widths(found: Propagation) -> dict[str, float]:
 
 def _least_share(widths: Mapping[str, float], now: Mapping[str, float]) -> float:
     """The smallest share of the present widths that is left of any."""
-    shares = [width / now[name] for name, width in widths.items() if 0.0 < now[name] < math.inf]
+    shares = [_share(width, now[name]) for name, width in widths.items()]
     return min((share for share in shares if not math.isnan(share)), default=1.0)
+
+
+def _share(width: float, now: float) -> float:
+    """What is left of a width: of one that is infinite nothing, or all of it; NaN of none."""
+    if now == math.inf:
+        return math.nan if math.isnan(width) else float(width == math.inf)
+    return width / now if now > 0.0 else math.nan
 
 
 def _change(width: float, now: float) -> str:
     """The percentage by which a range is narrower or wider than now."""
-    if not 0.0 < now < math.inf or math.isnan(width):
+    share = _share(width, now)
+    if math.isnan(share):
         return "no change known"
-    percent = round(100.0 * (width / now - 1.0))
+    if now == math.inf and width < math.inf:
+        return "no longer infinite"
+    if share == math.inf:
+        return "infinite"
+    percent = round(100.0 * (share - 1.0))
     return f"{percent:+d} %" if percent else "same"
