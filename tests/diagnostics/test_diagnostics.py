@@ -2213,3 +2213,15 @@ def test_places_with_units_are_not_suspected_of_being_feet():
     assert not [
         one for one in diagnose(motorcycle("-4.4 ft", ("0 ft", 0.0))) if one.code == "suspect_lever"
     ]
+
+
+def test_a_change_of_delta_v_that_both_vehicles_share_is_named_of_a():
+    """One impulse moves both by the same share, of which rounding makes one the larger."""
+    named = [
+        one.vehicle
+        for mass in np.linspace(1000.0, 2000.0, 21).tolist()
+        for one in diagnose(square(a={"mass": mass}, normal=0.6, point=(0.1, 0.2)))
+        if one.code in ("normal", "law")
+    ]
+    assert len(named) > 15
+    assert set(named) == {"a"}

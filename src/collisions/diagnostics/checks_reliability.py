@@ -265,7 +265,7 @@ def _worst(
     size: Callable[[VehicleResult, VehicleResult], float],
 ) -> Any:
     """The description of another result, label and name of the vehicle for which it differs most,
-    and both its sides.
+    and both its sides; of a tie the first, which is vehicle A's.
     """
     changes = [
         (how, label, who, old, new)
@@ -273,7 +273,9 @@ def _worst(
         if not answer.refused
         for (label, who, old), new in zip(case.sides, (answer.a, answer.b), strict=True)
     ]
-    return max(changes, key=lambda change: size(*change[3:]), default=None)
+    sizes = [size(*change[3:]) for change in changes]
+    most = max(sizes, default=0.0) * (1.0 - RATIO_ROUNDING)
+    return next((change for change, own in zip(changes, sizes, strict=True) if own >= most), None)
 
 
 def _delta_v_change(old: VehicleResult, new: VehicleResult) -> float:
