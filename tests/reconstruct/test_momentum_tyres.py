@@ -320,3 +320,18 @@ def test_tyres_that_are_none_are_refused_without_a_duration_too(wheels):
     with pytest.raises(col.InputError, match="tyres_a must be Tyres") as refused:
         reconstruct.momentum(1500, 1500, **known, tyres_a=wheels)
     assert "tyres need a duration" in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("units", "a", "b"), [("us", "1.8 mph", "1.7 mph"), ("si", "0.83", "0.75")]
+)
+def test_a_statement_has_the_units_of_its_page(units, a, b):
+    """The summary and the derivation: of about 0.825 m/s 1.8 mph, and of 0.75 m/s 1.7 mph."""
+    found = reconstruct.momentum(
+        1500.0, 1200.0, course_a=0.0, course_b="90 deg",
+        speed_a_after=11.0, course_a_after="25 deg", speed_b_after=12.0, course_b_after="40 deg",
+    )  # fmt: skip
+    for page in (found.summary(units), col.explain(found, units=units, form="text")):
+        text = " ".join(str(page).split())
+        assert f"the speed of A would be {a}" in text
+        assert f"the speed of B would be {b}" in text

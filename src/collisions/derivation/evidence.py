@@ -201,7 +201,7 @@ def momentum(page: Page, solution: MomentumSolution) -> None:
     )
     page.heading("Answers")
     page.table(momentum_answers(page, solution))
-    for sentence in solution.statements:
+    for sentence in solution._stated_in(page.system.name):
         page.say(as_sentence(sentence))
 
 

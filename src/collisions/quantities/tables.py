@@ -121,15 +121,17 @@ class Sentences:
     texts : iterable
         What the inputs were given as; the texts with units among it are read when the first number
         is written.
+    units : str, optional
+        The system of units of the page that the sentences are on, in place of that of the inputs.
     """
 
-    def __init__(self, texts: Iterable[Any] = ()) -> None:
-        self._texts = texts
+    def __init__(self, texts: Iterable[Any] = (), units: str | None = None) -> None:
+        self._texts, self._units = texts, units
 
     @cached_property
     def _system(self) -> Cells:
         given = [text for text in self._texts if isinstance(text, str)]
-        system = cells(None, given)
+        system = cells(self._units, given)
         system.in_degrees = frozenset(kinds_in_degrees(given))
         return system
 

@@ -151,7 +151,7 @@ class MomentumSolution(Shown):
         return Summary(
             self._title,
             [*sided(values, numbers), changes, all_numbers(self._rows())],
-            [*self._outcome(), *map(as_sentence, self.statements)],
+            [*self._outcome(), *map(as_sentence, self._stated_in(numbers.name))],
         )
 
     def _outcome(self) -> list[str]:
@@ -189,7 +189,11 @@ class MomentumSolution(Shown):
         with a drag of 0.7; with them, which other velocities fit too, or that others may and were
         not looked for.
         """
-        say = Sentences(self._texts())
+        return self._stated_in(None)
+
+    def _stated_in(self, units: str | None) -> tuple[str, ...]:
+        """The statements with their numbers in a system of units, by default that of the inputs."""
+        say = Sentences(self._texts(), units)
         found = neglected(self, float(USUAL_DURATION), 0.7, lambda value, kind: say(value, kind, 2))
         said = () if found is None else (found.sentence,)
         if not self.tyres:
