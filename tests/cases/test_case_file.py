@@ -486,6 +486,25 @@ def test_two_answers_are_told_apart():
     )  # 6 moves by 1.7 percent, and the answer by less
 
 
+def test_the_answer_that_was_asked_for_is_warned_of_alone():
+    """Of two answers B goes backwards in the second: the first is not warned of, alone or over its
+    errors.
+    """
+    text = (
+        "[a]\nmass = 1542\nyaw_inertia = 2400\nx = -1.98\ny = 0.4\nheading = 0\nyaw_rate = 0.35\n"
+        "[b]\nmass = 1315\nyaw_inertia = 1700\nx = 0.8\ny = -1.2\nheading = '90 deg'\n"
+        "[reconstruct.speeds]\ncourse_a = 0\ncourse_b = '90 deg'\nrestitution = 0.1\nnormal = 0\n"
+        "point = [0, 0]\nfriction = 0.5\nenergy_loss = 77960\ndelta_v_a = {}\n"
+    )
+    for stated in ("5.63", '"5.63 m/s +/- 0.1 m/s"'):
+        for answer, warned in ((1, 0), (2, 1)):
+            case = f"answer = {answer}\n" + text.format(stated)
+            found = answers(read_text(case.encode()))
+            assert (found.results[0].b.before.vy < 0.0) == bool(warned)
+            backwards = [line for line in found.warnings if "backwards along its course" in line]
+            assert len(backwards) == warned
+
+
 @pytest.mark.parametrize(
     ("old", "new", "line"),
     [

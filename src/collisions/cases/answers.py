@@ -21,6 +21,7 @@ from ..diagnostics import diagnose
 from ..impact.impact import Impact
 from ..impact.reconstruction import side_of
 from ..messages.errors import CollisionsWarning, InputError, as_marked
+from ..messages.warning import of_answer
 from ..quantities.attributes import missing_error, unit_of
 from ..quantities.formatting import percent
 from ..quantities.tables import given_texts, spoken_system
@@ -368,7 +369,7 @@ def answers(case: Case) -> Answers:
 def _answered(case: Case, noted: list[str]) -> tuple[Any, Any]:
     """The results of a case, and what a propagation found of them; warnings go to ``noted``."""
     if case.study in ("", "propagate"):
-        with _noting(noted) as of_the_case:
+        with _noting(noted) as of_the_case, of_answer(_at(case)):
             roots = _roots(case.call({}))
         results = roots if case.answer is None else roots[case.answer - 1 : case.answer]
         if not results:
@@ -448,6 +449,11 @@ def _line(warning: CollisionsWarning) -> str:
     return " ".join(in_file_words(as_marked(warning)).split())
 
 
+def _at(case: Case) -> int | None:
+    """The place of the answer that the file asks for, from 0; None where it asks for none."""
+    return None if case.answer is None else case.answer - 1
+
+
 def _roots(found: Any) -> tuple[Any, ...]:
     """The results of a solver, always as a tuple."""
     return found if isinstance(found, tuple) else (found,)
@@ -494,7 +500,8 @@ def _model(case: Case, outputs: Any, which: int, count: int) -> Any:
     options = {"on_failure": "nan"} if "on_failure" in takes else {}
 
     def model(**values: Any) -> dict[str, Any]:
-        roots = _roots(case.call(values, **options))
+        with of_answer(_at(case)):
+            roots = _roots(case.call(values, **options))
         if any(not np.all(root.refused) for root in roots[count:]):
             text = (
                 "has more answers in some cases than in the stated one; narrow what is "

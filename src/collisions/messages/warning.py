@@ -83,6 +83,7 @@ class Note(NamedTuple):
 
 _quiet: ContextVar[bool] = ContextVar("quiet", default=False)
 _sampling: ContextVar[list[Said] | None] = ContextVar("sampling", default=None)
+_answer: ContextVar[int | None] = ContextVar("answer", default=None)
 
 
 def warn(warning: CollisionsWarning, where: Any = None, sentence: str = "") -> None:
@@ -165,6 +166,23 @@ def quietly(said: list[Said] | None = None) -> Iterator[None]:
     finally:
         _quiet.reset(token)
         _sampling.reset(sampled)
+
+
+@contextmanager
+def of_answer(at: int | None) -> Iterator[None]:
+    """Within this context, in this thread only, a solver warns of that one of its several answers
+    alone, counted from 0; of all for None.
+    """
+    token = _answer.set(at)
+    try:
+        yield
+    finally:
+        _answer.reset(token)
+
+
+def answer_counts(at: int) -> bool:
+    """Whether what is said of this of several answers, counted from 0, is to be warned of."""
+    return _answer.get() in (None, at)
 
 
 @contextmanager

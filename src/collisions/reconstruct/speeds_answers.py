@@ -26,7 +26,7 @@ from ..messages.errors import (
     IllConditionedWarning,
     OutOfRangeWarning,
 )
-from ..messages.warning import warn_of_cases, warn_of_samples
+from ..messages.warning import answer_counts, warn_of_cases, warn_of_samples
 from ..quantities.refusals import LATERAL
 from ..quantities.tables import Sentences, given_texts, said
 from ..vehicle.vehicle import moved
@@ -117,7 +117,7 @@ def answers_of(
     scenes: list[ComponentScene | None] = []
     backward, whose, turned = 0.0, "", nowhere
     names = (*scene.names, *getattr(scene, "recorders", ()))
-    for root, there in found or [(NO_ROOT, nowhere)]:
+    for at, (root, there) in enumerate(found or [(NO_ROOT, nowhere)]):
         status = cases.first_status((*faults, (there, Status.OK), (True, Status.CONTRADICTORY)))
         if isinstance(status, int) and status != Status.OK:
             say = Sentences(inputs.texts)
@@ -146,6 +146,10 @@ def answers_of(
         impact = run_forward(
             partial(inputs_of, root), status, origin, None if cases.shape is None else "nan"
         )
+        impacts.append(impact)
+        scenes.append(own)
+        if not answer_counts(at):
+            continue
         for label, speed in zip("AB", root[:2], strict=True):
             speed = np.where(impact.refused, np.nan, speed * scene.speed_unit)
             # One that is 0 to rounding goes neither way.
@@ -155,15 +159,13 @@ def answers_of(
             turned = turned | goes_back
         if function is not None:
             function.warn_at(np.where(impact.refused, np.nan, impact.closing_speed))
-        impacts.append(impact)
-        scenes.append(own)
     if cases.shape is not None and np.any(impacts[0].refused):
         warn_of_refusals(impacts[0].status, ASK_ALONE)
     _warn_of_folds(scene, found, count)
     if isinstance(scene, ComponentScene):
         scene.warn(np.logical_not(impacts[0].refused), cases)
-        for own, impact in zip(scenes, impacts, strict=True):
-            if own is not None:
+        for at, (own, impact) in enumerate(zip(scenes, impacts, strict=True)):
+            if own is not None and answer_counts(at):
                 _warn_of_slip(own, impact, cases)
     if backward < 0.0:
         cure = (
