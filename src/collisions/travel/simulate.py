@@ -288,7 +288,8 @@ def simulate(
     slowed and turned by the ground as well: with ``rotating_mass``, what that takes adds to the
     force of its brake, as fast as the motion of the wheel along itself changes, in which the
     turning of the vehicle counts. Without it, places of rest are too near by about the same
-    fraction of the way.
+    fraction of the way. What brings a wheel to its spin that comes off ice, on which its brake had
+    locked it, is left out: where all four do, the vehicle goes on too fast by ``rotating_mass``.
 
     The model holds for cars that stay on their wheels on an even ground: suspension, rollover,
     kerbs, furrowing in soft ground, other vehicles, driving forces, rolling resistance and air
