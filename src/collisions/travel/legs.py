@@ -52,8 +52,8 @@ class Wheels(NamedTuple):
         not jump between them.
 
         The energy of wheels that turn before and after goes on. That of a wheel that locks is taken
-        by its brake. A wheel that is released is brought to speed by the ground: the momentum ahead
-        goes on.
+        by its brake. What the ground gives to a wheel that is released is left out, as in
+        ``simulate``.
         """
         if self.rotating is None:
             return [1.0] * len(legs)
@@ -61,16 +61,10 @@ class Wheels(NamedTuple):
         gains = [drag + leg.grade for drag, leg in zip(drags, legs, strict=True)]
         turn = [self._turn(leg, gain) for leg, gain in zip(legs, gains, strict=True)]
         for i in range(len(legs) - 2, -1, -1):
-            one, two = legs[i], legs[i + 1]
-            held = two._replace(friction=one.friction, lock=one.lock)
-            wheels = list(zip(turn[i], turn[i + 1], self._turn(held, gains[i + 1]), strict=True))
-            on = self._share([before & after for before, after, _ in wheels])
-            released = self._share(
-                [after & (before ^ True) & (still ^ True) for before, after, still in wheels]
-            )
-            before, after = 1.0 + on * one.cosine**2, 1.0 + on * two.cosine**2
-            lost = 1.0 + released * two.cosine**2
-            found.append(found[-1] * before / (after * lost * lost))
+            both = [before & after for before, after in zip(turn[i], turn[i + 1], strict=True)]
+            on = self._share(both)
+            before, after = 1.0 + on * legs[i].cosine ** 2, 1.0 + on * legs[i + 1].cosine ** 2
+            found.append(found[-1] * before / after)
         return found[::-1]
 
     def _share(self, turn: Sequence[Any]) -> Any:

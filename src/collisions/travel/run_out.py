@@ -233,8 +233,8 @@ def path(
 
     A wheel that turns has the spin of one that rolls, with ``rotating_mass``. Where ``lock`` or
     ``friction`` changes from one segment to the next, the spin of a wheel that locks is taken by
-    its brake, which changes no speed; a wheel that is released is brought to its spin by the
-    ground, which slows the vehicle by the momentum of it.
+    its brake, which changes no speed. What the ground gives to a wheel that is released is left
+    out, as in ``simulate``: where all four are, the speed is too low by up to ``rotating_mass``.
 
     Positions and headings are smoothed first, each by a weighted least-squares parabola about its
     point (local regression, Cleveland, J. Am. Stat. Assoc. 74 (1979) 829, here of degree 2): chords
