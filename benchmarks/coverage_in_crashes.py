@@ -430,6 +430,43 @@ def of_motion(reading: Reading) -> Evidence:
     return Evidence(model, priors(reading), observed, finer)
 
 
+def left_open(reading: Reading, observed: dict[str, Any]) -> dict[str, Any]:
+    """The readings with what ``eccentric`` leaves out beside their errors: the motion during the
+    contact, as ``left_out`` estimates it of the impact that momentum finds of what was read.
+
+    The estimate is of a change of velocity in a direction that is not known.
+    """
+    if not reading.contact:
+        return observed
+    read = {name: value for name, (value, _) in reading.motion.items()}
+    taken = {name: one.quantile(0.5) for name, one in reading.known.items()}
+    held = lasting(reading, {name: one.quantile(0.5) for name, one in reading.contact.items()})
+    known = {name: taken[name] for name in ("mass_a", "mass_b", "course_a", "course_b")}
+    headings = {f"heading_{label}": place[2] for label, place in reading.place.items()}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", col.CollisionsWarning)
+        before = reconstruct.momentum(**known, **read, **headings, **held)
+        impact = col.eccentric(
+            *cars(reading, taken, {"a": before.speed_a, "b": before.speed_b}),
+            0.5 * sum(RESTITUTION),
+            normal=taken["normal"],
+            point=(taken["x"], taken["y"]),
+            friction=0.5 * sum(FRICTION),
+            **held,
+        )
+        left = col.left_out(impact)
+    found = {}
+    for name, one in observed.items():
+        side = getattr(left, "a" if "_a" in name else "b")
+        along = side.geometry_delta_v / math.sqrt(2.0)
+        if "course" in name:
+            along /= read[name.replace("course", "speed")]
+        if "yaw_rate" in name:
+            along = side.geometry_yaw_rate
+        found[name] = Normal(one.given_mean, math.hypot(one.given_sd, along))
+    return found
+
+
 def of_recorders(reading: Reading, recorders: str, speed: str = "") -> Evidence:
     """Components of these recorders, and the speed that one of them tells."""
     parts = [
@@ -532,6 +569,18 @@ def by_posterior_of_both_recorders(reading: Reading, *, in_time: bool = False) -
     return by_posterior(reading, of_recorders(reading, "ab"), in_time=in_time)
 
 
+def by_posterior_left_open(reading: Reading) -> Speeds:
+    """Size of both delta-V, and motion after, with what the model leaves out beside the errors."""
+    of = of_motion(reading)
+    return by_posterior(reading, of._replace(observed=left_open(reading, of.observed)))
+
+
+def by_fit_left_open(reading: Reading) -> Speeds:
+    """The same by weighted least squares."""
+    of = of_motion(reading)
+    return asked(reconstruct.fit, *of[:2], left_open(reading, of.observed))
+
+
 def by_fit(reading: Reading, *, in_time: bool = False) -> Speeds:
     """Size of both delta-V, and motion after, by weighted least squares."""
     of = of_motion(reading)
@@ -547,7 +596,9 @@ ROUTES: dict[str, Callable[[Reading], Speeds]] = {
     "one recorder and its speed, friction=inf": by_one_recorder_alone,
     "posterior of delta-V and motion after": by_posterior_of_motion,
     "posterior of delta-V and motion after, finer=": partial(by_posterior_of_motion, in_time=True),
+    "posterior of delta-V and motion after, errors with what is left out": by_posterior_left_open,
     "fit of delta-V and motion after": by_fit,
+    "fit of delta-V and motion after, errors with what is left out": by_fit_left_open,
     "fit of delta-V and motion after, finer=": partial(by_fit, in_time=True),
     "posterior of one recorder and its speed": by_posterior_of_one_recorder,
     "posterior of one recorder and its speed, finer=": partial(

@@ -85,7 +85,7 @@ def test_locked_wheels_in_a_rear_end_impact(speed, share):
         assert side.tyre_delta_v == pytest.approx(MOST)
         assert side.tyre_share == pytest.approx(side.tyre_share_bound)
         assert side.rotation == 0.0
-        assert side.geometry_delta_v is side.geometry_share is None
+        assert side.geometry_delta_v is side.geometry_share is side.geometry_yaw_rate is None
     # A goes on at 0.3 and B at 0.7 of the speed, half of which they have after more than half of
     # the time.
     passed = spring(0.4)[2].mean()
@@ -334,10 +334,8 @@ def test_wheels_at_the_radius_of_gyration_turn_a_pinned_vehicle_no_more_than_is_
 TOUCHES = pytest.mark.parametrize("geometry", ["maximum_engagement", "first_contact"])
 
 
-def in_time(impact, geometry, duration, steps):
-    """How far delta-V moves with the geometry, of A and of B: ``time_resolved`` with places that
-    move and with fixed ones.
-    """
+def sides_in_time(impact, geometry, duration, steps):
+    """Of A and of B what ``time_resolved`` finds with places that move, and with fixed ones."""
     given = impact.inputs
     contact = {
         "normal": given.normal,
@@ -350,12 +348,21 @@ def in_time(impact, geometry, duration, steps):
         col.time_resolved(given.a, given.b, given.restitution, **contact, geometry=one)
         for one in (geometry, "fixed")
     )
+    return (moves.a, stands.a), (moves.b, stands.b)
+
+
+def in_time(*asked):
+    """How far delta-V moves with the geometry, of A and of B."""
     return [
-        math.hypot(
-            getattr(moves, name).delta_vx - side.delta_vx,
-            getattr(moves, name).delta_vy - side.delta_vy,
-        )
-        for name, side in (("a", stands.a), ("b", stands.b))
+        math.hypot(moves.delta_vx - stands.delta_vx, moves.delta_vy - stands.delta_vy)
+        for moves, stands in sides_in_time(*asked)
+    ]
+
+
+def turned_in_time(*asked):
+    """The same of the change of the yaw rate."""
+    return [
+        abs(moves.delta_yaw_rate - stands.delta_yaw_rate) for moves, stands in sides_in_time(*asked)
     ]
 
 
@@ -371,6 +378,8 @@ def test_geometry_of_a_short_plastic_contact_is_that_in_time(geometry, normal):
     wanted = in_time(impact, geometry, 1e-4, 2000)
     assert wanted[0] > 1e-5
     assert [found.a.geometry_delta_v, found.b.geometry_delta_v] == pytest.approx(wanted, rel=3e-3)
+    turned = turned_in_time(impact, geometry, 1e-4, 2000)
+    assert [found.a.geometry_yaw_rate, found.b.geometry_yaw_rate] == pytest.approx(turned, rel=3e-3)
 
 
 @TOUCHES
@@ -390,6 +399,9 @@ def test_geometry_of_an_impact_is_that_in_time_to_two_percent_of_delta_v(geometr
             (impact.b, found.b, wanted[1]),
         ):
             assert estimate.geometry_delta_v == pytest.approx(change, abs=0.02 * side.delta_v)
+        turned = turned_in_time(impact, geometry, 0.1, 200)
+        for estimate, change in zip((found.a, found.b), turned, strict=True):
+            assert 0.5 * change <= estimate.geometry_yaw_rate <= 2.0 * change
         if geometry == "maximum_engagement":
             assert 0.02 < wanted[0] / impact.a.delta_v < 0.07
 
@@ -815,7 +827,7 @@ def test_an_impact_of_solve_without_yaw_inertias():
 
     there = {name: value for name, value in wanted.items() if value is not None}
     assert set(wanted) - set(there) == {
-        f"{side}.geometry_{kind}" for side in "ab" for kind in ("delta_v", "share")
+        f"{side}.geometry_{kind}" for side in "ab" for kind in ("delta_v", "share", "yaw_rate")
     }
     assert moved(least()) == pytest.approx(there, rel=1e-12, abs=1e-12)
     stiff = {"x": None, "y": None, "yaw_inertia": math.inf}

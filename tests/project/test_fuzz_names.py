@@ -487,6 +487,7 @@ LEFT_OPEN = frozenset(
         "tyre_share",
         "geometry_share",
         "geometry_delta_v",
+        "geometry_yaw_rate",
         "tyre_delta_v",
     )
 )

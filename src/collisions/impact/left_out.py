@@ -159,23 +159,28 @@ def finite_mass(body: Vehicle) -> Any:
     return select(math_or_numpy(body.mass).isfinite(body.mass), body.mass, 0.0)
 
 
-def with_motion(impact: Impact, time: Any, geometry: str) -> list[Any]:
-    """Change of delta-V of each vehicle because the geometry moves during the contact; None without
-    a geometry.
+def with_motion(impact: Impact, time: Any, geometry: str) -> list[tuple[Any, Any]]:
+    """Change of delta-V, and of the change of the yaw rate, of each vehicle because the geometry
+    moves during the contact; None without a geometry.
 
     ``geometry`` says what moment the positions of the impact are those of: "maximum_engagement" or
     "first_contact".
     """
     point, placed = impact.point, impact.model == ECCENTRIC.name
     if point is None or placed is False:
-        return [None] * 2
+        return [(None, None)] * 2
     if impact.refused is True or not np.any(placed):
-        return [math.nan] * 2
+        return [(math.nan, math.nan)] * 2
     # In a function of its own: what it works with is freed before the impact is solved again.
     bodies, point, normal = _acted_on(impact, point, time, geometry)
     again = solve_changed(impact, a=bodies[0], b=bodies[1], point=point, normal=normal)
     return [
-        select(placed, hypot(new.delta_vx - old.delta_vx, new.delta_vy - old.delta_vy), math.nan)
+        (
+            select(
+                placed, hypot(new.delta_vx - old.delta_vx, new.delta_vy - old.delta_vy), math.nan
+            ),
+            select(placed, abs(new.delta_yaw_rate - old.delta_yaw_rate), math.nan),
+        )
         for old, new in ((impact.a, again.a), (impact.b, again.b))
     ]
 
@@ -331,6 +336,9 @@ class LeftOutVehicle(Shown):
         impact without a point. In a batch of ``solve`` with a point it is NaN where a central
         model answered. It is also NaN where there is no answer with the geometry of later in the
         contact, mostly because the bodies then part.
+    geometry_yaw_rate : float or array [rad/s]
+        Estimate of how far the change of the yaw rate moves for the same reason; None and NaN as
+        above.
     """
 
     _title = "Left out for one vehicle"
@@ -348,6 +356,7 @@ class LeftOutVehicle(Shown):
     rotation: Value = field(metadata={"unit": "rad"})
     geometry_delta_v: Value | None = field(metadata={"unit": "m/s"})
     geometry_share: Value | None = field(metadata={"unit": ""})
+    geometry_yaw_rate: Value | None = field(metadata={"unit": "rad/s"})
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
@@ -628,7 +637,9 @@ def _estimated(
             )
             * time,
         }
-        for label, pull, by_tyres, by_motion in zip("ab", pulls, tyres, moved, strict=True):
+        for label, pull, by_tyres, (by_motion, turns) in zip(
+            "ab", pulls, tyres, moved, strict=True
+        ):
             side = getattr(impact, label)
             before, delta_v = side.before, side.delta_v
             mass = finite_mass(before)
@@ -646,6 +657,7 @@ def _estimated(
                 "rotation": (before.yaw_rate + passed * side.delta_yaw_rate) * time,
                 "geometry_delta_v": by_motion,
                 "geometry_share": None if by_motion is None else _share(by_motion, delta_v),
+                "geometry_yaw_rate": turns,
             }
             found |= {f"{label}.{name}": value for name, value in of_side.items()}
         return {

@@ -697,6 +697,9 @@ def _left_out(
                 f": the model has no answer with the {other}" if math.isnan(float(change)) else part
             )
             yield what, sheet.system.answer(float(change), "speed") + part
+    if side.geometry_yaw_rate is not None and not math.isnan(float(side.geometry_yaw_rate)):
+        turn = sheet.system.answer(float(side.geometry_yaw_rate), "yaw rate")
+        yield "change of the yaw rate after, for the same reason", turn
 
 
 def _outline(sheet: Sheet, corners: Sequence[tuple[float, float]]) -> str:
