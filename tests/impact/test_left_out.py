@@ -1233,3 +1233,43 @@ def test_what_a_refused_scene_without_a_point_leaves_out():
     for a in (away, away.replace(vx=np.array([]))):
         impact = col.solve(a, gate, 0.1, normal=0.0, point=None, friction=0.3, on_failure="nan")
         assert np.isnan(col.left_out(impact).b.tyre_delta_v).all()
+
+
+@pytest.mark.parametrize("both", [False, True])
+def test_tyres_that_a_central_model_leaves_out_of_solve_count(both):
+    """What they change is what the eccentric model changes with them, not a multiple of it; each
+    case of a batch with both models as alone.
+    """
+    tyres = {"tyres_a": col.travel.Tyres(0.7, 1.0, 2.6, 1.5)}
+    tyres |= {"tyres_b": col.travel.Tyres(0.7, 1.0, 2.6, 1.5)} if both else {}
+    b = col.Vehicle(mass=1250, yaw_inertia=1900, x=2.4, y=0.0, heading=0.0)
+    contact = {"restitution": 0.1, "friction": 0.5, "normal": 0.0, "point": (0.0, 0.0)}
+
+    def struck(speed, y=0.0):
+        a = col.Vehicle(mass=1540, yaw_inertia=2600, x=-2.4, y=y, heading=0.0, vx=speed)
+        return a, col.solve(a, b, tolerance=1.5, duration=0.1, **tyres, **contact)
+
+    a, impact = struck(6.0)
+    assert impact.model == "linear_central"
+    bare, held = (
+        col.eccentric(a, b, **contact),
+        col.eccentric(a, b, duration=0.1, **tyres, **contact),
+    )
+    left = col.left_out(impact)
+    # The tyres of the one that is not given slide, and change no more than 0.7 g in 0.1 s.
+    wanted = abs(bare.b.delta_v - held.b.delta_v)
+    assert left.b.tyre_delta_v == pytest.approx(wanted, abs=0.02 if both else MOST)
+    assert left.a.tyre_delta_v_bound == pytest.approx(MOST)
+    rows = [move.what for move in col.diagnose(impact).moves if move.what.startswith("tyres")]
+    assert rows == [
+        "tyres as given, 0.1 s" if both else "tyres of B sliding 0.1 s, drag 0.7, others as given"
+    ]
+    _, many = struck(np.array([6.0, 25.0]), 0.6)
+    assert many.model.tolist() == ["linear_central", "eccentric"]
+    found = col.left_out(many)
+    for i, speed in enumerate((6.0, 25.0)):
+        alone = col.left_out(struck(speed, 0.6)[1])
+        for name in ("tyre_delta_v", "tyre_delta_v_bound"):
+            for label in "ab":
+                one, other = (getattr(getattr(of, label), name) for of in (found, alone))
+                assert one[i] == pytest.approx(other, rel=1e-9, abs=1e-12)

@@ -201,12 +201,13 @@ def _of_idealisation(case: ImpactCase) -> Iterator[Move]:
     if left is None:
         return
     lacking, time = tyres_lacking(case.answer), f"{left.duration:.3g} s"
-    unknown = [label for label in lacking if label not in case.tyres]
+    given = {*case.tyres, *case.answer.inputs.tyres}
+    unknown = [label for label in lacking if label not in given]
     tyres = f"tyres as given, {time}"
     if unknown:
-        of = f" of {unknown[0].upper()}" if case.tyres or tyres_held(case.answer) else ""
+        of = f" of {unknown[0].upper()}" if given or tyres_held(case.answer) else ""
         tyres = f"tyres{of} sliding {time}, drag {left.drag:.2g}"
-        tyres += ", others as given" if case.tyres else ""
+        tyres += ", others as given" if given.intersection(lacking) else ""
     for name, what, of in (
         ("geometry", f"motion during contact, {time}", "geometry"),
         ("tyres", tyres, "tyre"),

@@ -21,7 +21,7 @@ _CLOSE_OF_FINER = 1e-4
 _CLOSE_ENOUGH = 1e-3
 # Of chi-squared, or absolute: a search that falls by less over so many rounds gets no further.
 _STALLED, _STALLED_ROUNDS = 1e-6, 10
-_STALLED_OF_FINER, _ROUNDS_OF_FINER = 1e-3, 4
+_STALLED_OF_FINER, _ROUNDS_OF_FINER = 1e-4, 6
 _FIRST_DAMPING = 1e-2
 # of the largest slope: an unknown that changes less is damped like one that changes so much
 _LEAST_WEIGHT = 1e-3
@@ -64,8 +64,8 @@ class Problem(NamedTuple):
     which the model changes, which sets the steps of the slopes; without it, a guess from the scale.
     ``noise`` is how far outputs scatter from one neighbour to the next, as where a model integrates
     with steps of its own; slopes are then taken over a part of ``reach``, the errors of the
-    unknowns. ``scout`` is the problem of a cheaper model, for where to look; with ``borrowed``
-    slopes those elsewhere change as the scout's do.
+    unknowns. ``scout`` is the problem of a cheaper model; with ``borrowed`` slopes those
+    elsewhere change as the scout's do.
     """
 
     evaluate: Callable[[Any], Any]

@@ -29,31 +29,32 @@ _FIRST = 0.125  # of its scale, for an unknown without a standard error
 _REACHED = 1.8  # sigma, where 95 percent counts as reached
 _FINE = 0.3  # sigma, aimed at from one value to the next on the way back in another valley
 _MOST_VALLEYS = 4  # one beyond the other
-_ELSEWHERE, _AWAY = 8, 3.0  # places beside a fit to start from, and how far away [sigma] at most
-_TRIED, _FIRST_ROUNDS = 4, 3  # of these: how many, and rounds until the best is chosen
+# Places beside a fit to start from: as far away as the misfit lets [sigma], and over whole spans.
+_ELSEWHERE, _FAR_OFF, _AWAY = 8, 8, 3.0
+# of each: how many; and rounds until the best is chosen
+_TRIED, _TRIED_FAR_OFF, _FIRST_ROUNDS = 4, 4, 3
 _DEPARTS = 0.1  # sigma: places where the model is nearer to its slopes need no search
 _ALIKE = 0.02  # of the way, and sigma: ends this near each other need no fit in between
 _MOST_REFINED = 3  # fits in between
-_MISSED, _MOST_PUT_RIGHT = 0.05, 6  # of chi-squared, by borrowed slopes at 95 percent; and fits
+_PUT_RIGHT, _MOST_PUT_RIGHT = 0.01, 8  # of the way: an end that moves less is right; and fits
 _LOWER = 0.05  # of chi-squared: what is lower by less is the same valley
 
 
 class Place(NamedTuple):
-    """A value of a side, between others: before which of them it is, and the rise and all unknowns
-    that these put there.
+    """A value of a side, between others: before which of them it is, and all unknowns that these
+    put there.
     """
 
     number: int
     value: float
-    rise: float
     point: Any
 
 
 class Side(NamedTuple):
     """Values on one side of the answer, outward, the rise of the misfit at each in sigma, and the
-    slope of chi-squared there; beyond the last the model refuses if it is ``at_edge``. ``valleys``
-    are others in which the misfit is lower from some value on. ``points`` are all unknowns at each
-    value.
+    slope of chi-squared there, NaN where borrowed slopes do not tell; beyond the last the model
+    refuses if it is ``at_edge``. ``valleys`` are others in which the misfit is lower from some
+    value on. ``points`` are all unknowns at each value.
     """
 
     values: Any
@@ -109,12 +110,12 @@ class Side(NamedTuple):
         return None if alike or near else self.place(end)
 
     def place(self, value: float) -> Place:
-        """The place of a value, with all unknowns and the rise as straight lines put them."""
+        """The place of a value, with all unknowns as straight lines put them."""
         way = math.copysign(1.0, self.bound - self.values[0])
         outward = way * self.values
         n = int(np.searchsorted(outward, way * value))
         point = np.array([np.interp(way * value, outward, one) for one in self.points.T])
-        return Place(n, value, self.rise_at(value), point)
+        return Place(n, value, point)
 
     def with_place(self, place: Place, rise: float, slope: float, point: Any) -> Side:
         """With what was found at a place, instead of what was there, if anything."""
@@ -132,11 +133,14 @@ class Side(NamedTuple):
         )
 
     def _between(self, k: int, level: float) -> float:
-        """Where chi-squared reaches the level after value k, by the cubic of both ends and slopes;
-        bisected, since that need not be monotonic.
+        """Where chi-squared reaches the level after value k, by the cubic of both ends and slopes,
+        where one is not known that of a straight line in the rise; bisected, since that need not
+        be monotonic.
         """
         start, width = self.values[k], self.values[k + 1] - self.values[k]
-        (below, above), (left, right) = self.rises[k : k + 2] ** 2, self.slopes[k : k + 2] * width
+        rises, slopes = self.rises[k : k + 2], self.slopes[k : k + 2] * width
+        straight = 2.0 * rises * (rises[1] - rises[0])
+        (below, above), (left, right) = rises**2, np.where(np.isnan(slopes), straight, slopes)
         low, high = 0.0, 1.0
         for _ in range(40):
             t = 0.5 * (low + high)
@@ -231,27 +235,32 @@ def _put_right(
     """Fit at the end of 95 percent of each piece by slopes of the model itself, until that moves
     it no more.
     """
-    asked = [(j, side, i) for j, both in pieces.items() for side in both for i in range(len(side))]
+    asked = [
+        (j, side, i, math.nan)
+        for j, both in pieces.items()
+        for side in both
+        for i in range(len(side))
+    ]
     for _ in range(_MOST_PUT_RIGHT):
-        ends = [side[i].end(LEVELS[_AT_95]) for _, side, i in asked]
-        asked = [one for one, end in zip(asked, ends, strict=True) if not math.isnan(end)]
+        moved = []
+        for j, side, i, was in asked:
+            end = side[i].end(LEVELS[_AT_95])
+            way = abs(end - side[i].values[0])
+            if not (math.isnan(end) or abs(end - was) <= _PUT_RIGHT * way):
+                moved.append((j, side, i, end))
+        asked = moved
         if not asked:
             break
-        ends = [end for end in ends if not math.isnan(end)]
-        places = [side[i].place(end) for (_, side, i), end in zip(asked, ends, strict=True)]
+        places = [side[i].place(end) for _, side, i, end in asked]
         starts, held = np.stack([one.point for one in places]), np.array([j for j, *_ in asked])
-        starts[np.arange(len(held)), held] = ends
+        starts[np.arange(len(held)), held] = [one.value for one in places]
         kept = np.arange(starts.shape[1]) == held[:, np.newaxis]
         found = minimise(problem, starts, held=kept, close=_CLOSE, rounds=_LAST_ROUNDS)
         climbs = _climbs(problem, found, held)
-        moved = []
-        for row, ((j, side, i), place) in enumerate(zip(asked, places, strict=True)):
+        for row, ((_, side, i, _), place) in enumerate(zip(asked, places, strict=True)):
             rise = math.sqrt(max(0.0, found.chi_squared[row] - chi_squared))
             if math.isfinite(rise):
                 side[i] = side[i].with_place(place, rise, climbs[row], found.points[row])
-            if abs(rise**2 - place.rise**2) > _MISSED:
-                moved.append((j, side, i))
-        asked = moved
 
 
 def _pieces(
@@ -434,30 +443,30 @@ def beside(problem: Problem, places: Ends, held: Any) -> Ends:
     if n == 1:
         return found
     kept = np.arange(n) == held[:, np.newaxis]
-    if problem.scout is not None:
-        here = minimise(problem.scout, places.points, held=kept, close=_CLOSE, rounds=_LAST_ROUNDS)
-        seen = beside(problem.scout, here, held)
-        into = np.flatnonzero(seen.chi_squared < here.chi_squared - _LOWER)
-        if into.size:
-            _put(found, into, problem, seen.points[into], kept[into])
-        return found
     scaled = np.where(kept[:, np.newaxis], 0.0, places.slopes * problem.span)
     _, size, direction = np.linalg.svd(np.where(np.isfinite(scaled), scaled, 0.0))
     # In the directions of the slopes, as far as the misfit rises alike along each, or one span;
-    # the last is that of what is kept.
-    far = np.ones((count, n))
-    far[:, : size.shape[1]] = np.minimum(1.0, _AWAY / np.maximum(size, _AWAY))
-    around = spread(_ELSEWHERE, -np.ones(n - 1), np.ones(n - 1))
-    moved = np.einsum("si,ki,kij->ksj", around, far[:, :-1], direction[:, :-1]) * problem.span
+    # the last is that of what is kept. Where slopes are steep here, another valley may lie further.
+    every = _ELSEWHERE + _FAR_OFF
+    far = np.ones((every, count, n))
+    far[:_ELSEWHERE, :, : size.shape[1]] = np.minimum(1.0, _AWAY / np.maximum(size, _AWAY))
+    around = spread(every, -np.ones(n - 1), np.ones(n - 1))
+    moved = np.einsum("si,ski,kij->ksj", around, far[..., :-1], direction[:, :-1]) * problem.span
     moved = np.where(kept[:, np.newaxis], 0.0, moved)
     starts = np.clip(places.points[:, np.newaxis] + moved, problem.low, problem.high)
     moved = starts - places.points[:, np.newaxis]
-    outputs = problem.evaluate(starts.reshape(-1, n)).reshape(count, _ELSEWHERE, -1)
+    outputs = problem.evaluate(starts.reshape(-1, n)).reshape(count, every, -1)
     straight = places.outputs[:, np.newaxis] + np.einsum("kmn,ksn->ksm", places.slopes, moved)
     off = np.linalg.norm(problem.wrapped(outputs - straight), axis=2)
     high = np.sum(problem.misfit(outputs) ** 2, axis=2)
     high = np.where(off > _DEPARTS, high, np.inf)
-    chosen = np.argsort(high, axis=1)[:, :_TRIED]
+    chosen = np.concatenate(
+        [
+            np.argsort(high[:, :_ELSEWHERE], axis=1)[:, :_TRIED],
+            np.argsort(high[:, _ELSEWHERE:], axis=1)[:, :_TRIED_FAR_OFF] + _ELSEWHERE,
+        ],
+        axis=1,
+    )
     which, nth = np.nonzero(np.isfinite(np.take_along_axis(high, chosen, axis=1)))
     if not which.size:
         return found
@@ -481,16 +490,19 @@ def beside(problem: Problem, places: Ends, held: Any) -> Ends:
 
 
 def _put(found: Ends, into: Any, problem: Problem, starts: Any, kept: Any) -> None:
-    """Put where fits from these starts end, with what is kept, into these rows."""
+    """Put where fits from these starts end, with what is kept, into the rows that are higher."""
     ends = minimise(problem, starts, held=kept, close=_CLOSE, rounds=_LAST_ROUNDS)
+    lower = ends.chi_squared < found.chi_squared[into]
     for part, of in zip(found, ends, strict=True):
-        part[into] = of
+        part[into[lower]] = of[lower]
 
 
 def _climbs(problem: Problem, ends: Ends, unknowns: Any) -> Any:
     """Slope of chi-squared by the unknown that each row holds: the others add nothing to it where
-    it is least in them.
+    it is least in them. NaN with borrowed slopes, which may be far off there.
     """
+    if problem.borrowed is not None:
+        return np.full(len(unknowns), math.nan)
     gradient = 2.0 * np.einsum("kmn,km->kn", ends.slopes, problem.misfit(ends.outputs))
     return gradient[np.arange(len(unknowns)), unknowns]
 

@@ -29,7 +29,7 @@ from ..vehicle.vehicle import Vehicle, needed
 from . import pulse
 from .impact import Impact, answer_of, part_of_impact, solve_changed
 from .inputs import part_of
-from .models import ECCENTRIC, LINEAR
+from .models import ECCENTRIC, LINEAR, TIME_RESOLVED
 from .time_resolved_inputs import held_impulse, read_tyres
 from .vehicle_result import VehicleResult
 
@@ -83,10 +83,14 @@ class Pull(NamedTuple):
 
 
 def by_wheels(
-    impact: Impact, time: Any, tyres: Mapping[str, Tyres], pulls: tuple[Pull, Pull]
+    impact: Impact,
+    time: Any,
+    tyres: Mapping[str, Tyres],
+    pulls: tuple[Pull, Pull],
+    left: Mapping[str, Any],
 ) -> tuple[Pull, Pull]:
-    """What wheels that roll, brake and steer do over the contact, as ``eccentric`` takes them; of a
-    vehicle without it is what a drag does.
+    """What wheels that roll, brake and steer do over the contact, as ``eccentric`` takes them, as
+    far as it is ``left`` out (1, or 0); of a vehicle without it is what a drag does.
     """
     inputs = replace(
         impact.inputs, tyres_a=tyres.get("tyres_a"), tyres_b=tyres.get("tyres_b"), duration=time
@@ -99,10 +103,10 @@ def by_wheels(
             continue
         mass = finite_mass(body)
         x, y, yaw = (
-            part / select(mass > 0.0, mass, 1.0)
+            left[label] * part / select(mass > 0.0, mass, 1.0)
             for part in held_impulse(inputs, answer_of(impact), label)
         )
-        drag = select(mass > 0.0, 1.0, 0.0) * own.friction * GRAVITY * time
+        drag = left[label] * select(mass > 0.0, 1.0, 0.0) * own.friction * GRAVITY * time
         found.append(
             Pull(x, y, Pull.of(getattr(impact, label), inputs.restitution, drag).most, yaw)
         )
@@ -111,13 +115,26 @@ def by_wheels(
 
 def tyres_held(impact: Impact) -> tuple[str, ...]:
     """The vehicles, "a" and "b", whose tyres are in an impact: those that were given, or by
-    ``central`` their drags.
+    ``central`` their drags. A central model that ``solve`` chose has none.
     """
     inputs, origin = impact.inputs, impact.reconstruction
+    own = inputs.tyres if np.any(_takes_tyres(impact)) else {}
     if impact.pulse is not None and np.any(inputs.drag):
         return "a", "b"
     drags = {} if origin is None else {"a": origin.drag_a, "b": origin.drag_b}
-    return tuple(label for label in "ab" if label in inputs.tyres or drags.get(label) is not None)
+    return tuple(label for label in "ab" if label in own or drags.get(label) is not None)
+
+
+def _takes_tyres(impact: Impact) -> Any:
+    """Whether the model that answered takes tyres; in a batch of ``solve`` of each case."""
+    return (impact.model == ECCENTRIC.name) | (impact.model == TIME_RESOLVED.name)
+
+
+def _left(impact: Impact, label: str, held: Collection[str]) -> Any:
+    """1 where the tyres of a vehicle are left out of the impact, and 0 where not."""
+    if label not in held:
+        return 1.0
+    return select(_takes_tyres(impact), 0.0, 1.0) if label in impact.inputs.tyres else 0.0
 
 
 def tyres_lacking(impact: Impact) -> tuple[str, ...]:
@@ -147,11 +164,21 @@ def with_tyres(impact: Impact, pulls: tuple[Pull, Pull]) -> list[Any]:
                 select(central, *places) for places in zip(point, (body.x, body.y), strict=True)
             )
             changes[label] = body.replace(x=x, y=y)
-    again = solve_changed(impact, **changes)
-    return [
-        hypot((new.delta_vx - old.delta_vx) / _LITTLE, (new.delta_vy - old.delta_vy) / _LITTLE)
-        for old, new in ((impact.a, again.a), (impact.b, again.b))
-    ]
+
+    def moved(**more: Any) -> list[Any]:
+        again = solve_changed(impact, **changes, **more)
+        return [
+            hypot((new.delta_vx - old.delta_vx) / _LITTLE, (new.delta_vy - old.delta_vy) / _LITTLE)
+            for old, new in ((impact.a, again.a), (impact.b, again.b))
+        ]
+
+    has = _takes_tyres(impact)
+    if not inputs.tyres or np.all(has):
+        return moved()
+    without = moved(tyres_a=None, tyres_b=None, duration=None)
+    if not np.any(has):
+        return without
+    return [select(has, *pair) for pair in zip(moved(), without, strict=True)]
 
 
 def finite_mass(body: Vehicle) -> Any:
@@ -559,11 +586,17 @@ def left_out(
                 "out, or write again()"
             )
             reader.refuse(InputError(text, code="bad_combination", argument="tyres_a"))
-        if not tyres_lacking(impact):
+        if not tyres_lacking(impact) and (not impact.inputs.tyres or np.all(_takes_tyres(impact))):
             pull = 0.0
         if isinstance(duration, Default):
             origin, time = impact.reconstruction, impact.inputs.duration
             time = origin.duration if time is None and origin is not None else time
+    if isinstance(impact, Impact) and tyres_a is tyres_b is None and impact.inputs.tyres:
+        if isinstance(duration, Default):
+            time = impact.inputs.duration
+        if not np.all(_takes_tyres(impact)):
+            # Those that a central model left out.
+            tyres = {f"tyres_{label}": one for label, one in impact.inputs.tyres.items()}
     reader.close()
     given = {"impact": impact.closing_speed, "duration": time, "drag": pull}
     own = {name: one for name, one in tyres.items() if one is not None}
@@ -615,11 +648,14 @@ def _estimated(
     """
     with np.errstate(all="ignore"):
         e = impact.restitution
-        bounds = {label: (0.0 if label in held else 1.0) * drag * GRAVITY * time for label in "ab"}
+        most = drag * GRAVITY * time
+        left = {label: _left(impact, label, held) for label in "ab"}
+        bounds = {label: most * left[label] for label in "ab"}
         pulls = Pull.of(impact.a, e, bounds["a"]), Pull.of(impact.b, e, bounds["b"])
         if wheels:
-            pulls = by_wheels(impact, time, wheels, pulls)
-            bounds |= {name[-1]: one.friction * GRAVITY * time for name, one in wheels.items()}
+            pulls = by_wheels(impact, time, wheels, pulls, left)
+            for name, one in wheels.items():
+                bounds[name[-1]] = one.friction * GRAVITY * time * left[name[-1]]
         # A refused single case cannot be solved again.
         tyres = [math.nan] * 2 if impact.refused is True else with_tyres(impact, pulls)
         moved = with_motion(impact, time, geometry)
