@@ -203,6 +203,7 @@ def fit(
         searched = inputs.model
         if dearer is not None:
             starts, scout = _ends_to_refine(inputs, problem, ends), problem
+            least = np.min(ends.chi_squared)
             inputs, problem = dearer
             problem = problem._replace(noise=problem.noise_near(starts[:_FOR_NOISE]), scout=scout)
             ends = minimise(problem, starts)
@@ -213,6 +214,10 @@ def fit(
                     "fit(finer, unknowns, observed)",
                     code="refused",
                 )
+            if np.min(ends.chi_squared) > least + _TO_REFINE:
+                # It fits badly where the other model fits, and may fit elsewhere.
+                more = minimise(problem, _starts(inputs, problem))
+                ends = Ends(*map(np.concatenate, zip(ends, more, strict=True)))
         best, ends, found_of = _followed(inputs, problem, ends, few=dearer is None)
         candidates = [best, *(one for one, _ in found_of[1:])]
         fits = []
