@@ -494,7 +494,7 @@ def test_ranges_of_a_finer_model_that_bends_cost_few_calls_of_it():
     for name in found.profiles:
         low, high = alone[name].interval(0.95)
         assert found[name].interval(0.95) == pytest.approx((low, high), abs=0.005 * (high - low))
-    assert found.calls["finer"] < 0.06 * found.calls["model"]
+    assert found.calls["finer"] < 0.1 * found.calls["model"]
 
 
 def test_two_answers_of_the_finer_model_are_refused_with_the_call_to_write():
