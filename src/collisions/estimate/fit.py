@@ -116,8 +116,9 @@ def fit(
     finer : function, optional
         A model that takes the same unknowns and returns the same outputs, and costs more. The
         searches all over the bounds are those of ``model``; from where they end the misfit of the
-        finer model is minimised, whose fit this then is. An answer of it that is far from every one
-        of ``model`` is not found.
+        finer model is minimised, whose fit this then is. Only where it fits badly there, its
+        chi-squared more than 25 above that of ``model``, is it searched all over the bounds too;
+        else an answer of it that is far from every one of ``model`` is not found.
 
     Returns
     -------
