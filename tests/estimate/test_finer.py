@@ -199,6 +199,84 @@ def test_a_posterior_far_from_the_first_one():
     assert "islands_disagree" in codes or abs(found.log_evidence - log_evidence) < 0.5
 
 
+@pytest.mark.parametrize("error", [0.2, 0.05, 0.02, 0.01, 0.002])
+def test_a_reading_finer_than_the_difference_of_the_models(error):
+    """They are up to 450 errors of the reading apart, and less where x is small, to where all
+    samples would be drawn half-way between them; by quadrature over the ridge that is left.
+    """
+
+    def model(x, y):
+        return {"p": x * y}
+
+    def finer(x, y):
+        return {"p": 1.08 * x * y + 0.1 * x}
+
+    priors = {"x": Normal(3.0, 1.0), "y": Normal(2.0, 0.5)}
+    found, codes = sampled(model, priors, {"p": (7.0, error)}, finer=finer, samples=2048)
+    # Of each x the reading of p is one of y, with the prior of y known to its error.
+    x = np.linspace(0.05, 8.0, 20001)
+    mean, sd = 1.08 * x * 2.0 + 0.1 * x, np.hypot(error, 1.08 * x * 0.5)
+    log = normal_log(x, 3.0, 1.0) + np.array(
+        [normal_log(7.0, *pair) for pair in zip(mean.tolist(), sd.tolist(), strict=True)]
+    )
+    weight = np.exp(log)
+    middle = np.sum(weight * x) / np.sum(weight)
+    std = math.sqrt(np.sum(weight * (x - middle) ** 2) / np.sum(weight))
+    close(found["x"].mean, found["x"].mean_standard_error, middle)
+    assert found["x"].mean == pytest.approx(middle, abs=0.2 * std)
+    assert found["x"].std == pytest.approx(std, rel=0.2)
+    evidence = math.log(np.sum(weight) * (x[1] - x[0]))
+    assert found.log_evidence == pytest.approx(evidence, abs=0.35)
+    assert "contradictory" not in codes
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("places", ["b", "ab"])
+@pytest.mark.parametrize("error", [0.3, 0.1, 0.05])
+def test_places_of_rest_surveyed_more_closely_than_the_models_agree(places, error):
+    """A slide to rest with one drag, and cars that go a quarter further where they turn: the places
+    differ by 1.3 m, and the survey by centimetres.
+    """
+
+    def slid(further):
+        def model(speed_a, speed_b, contact, friction, drag):
+            a = col.Vehicle(mass=1500, vx=speed_a, yaw_inertia=2500, x=-2.1, y=0.3, heading=0.0)
+            b = col.Vehicle(mass=1250, vy=speed_b, yaw_inertia=1900, x=0.9, y=-0.4, heading=1.5708)
+            impact = col.eccentric(
+                a, b, 0.1, normal=0.0, point=(0.0, contact), friction=friction, on_failure="nan"
+            )
+            found = {}
+            for label in places:
+                after = getattr(impact, label).after
+                way = after.speed**2 / (2.0 * 9.80665 * drag)
+                way = way * (1.0 + further * np.tanh(np.abs(after.yaw_rate) / 3.0))
+                found[f"x_{label}"] = way * after.vx / after.speed
+                found[f"y_{label}"] = way * after.vy / after.speed
+            return found
+
+        return model
+
+    priors = {
+        "speed_a": Uniform(5, 30),
+        "speed_b": Uniform(3, 25),
+        "contact": Normal(0.2, 0.15),
+        "friction": Normal(0.5, 0.1, truncate=(0.2, 0.9)),
+        "drag": Normal(0.55, 0.08, truncate=(0.2, 0.9)),
+    }
+    finer = slid(0.25)
+    observed = {name: (one, error) for name, one in finer(15.0, 9.0, 0.25, 0.45, 0.5).items()}
+    found, codes = sampled(slid(0.0), priors, observed, finer=finer, samples=2048)
+    alone, _ = sampled(finer, priors, observed, samples=2048, seed=2)
+    for name in priors:
+        one, other = found[name], alone[name]
+        apart = math.hypot(one.mean_standard_error, other.mean_standard_error)
+        close(one.mean, apart, other.mean, 0.1 * other.std)
+        assert one.std == pytest.approx(other.std, rel=0.3), name
+    off = math.hypot(found.log_evidence_error, alone.log_evidence_error)
+    close(found.log_evidence, off, alone.log_evidence, 0.2)
+    assert "contradictory" not in codes
+
+
 @pytest.mark.slow
 def test_three_unknowns_by_brute_force():
     """Speeds before an inline impact and its restitution; the finer model loses 8 % to the tyres,

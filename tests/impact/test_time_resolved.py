@@ -1249,6 +1249,53 @@ def test_refused_contacts():
         assert caught.value.code == col.Status(status).label
 
 
+@pytest.mark.parametrize("geometry", ["fixed", "first_contact", "maximum_engagement"])
+def test_a_contact_that_friction_without_bound_parts_at_once_is_refused(geometry):
+    """As under "stronge", whose limit it is; its answer would be that of a step or two, however
+    short these are.
+    """
+    a = col.Vehicle(mass=1500, yaw_inertia=2550, x=-2.2, y=-0.54, heading=0.24, vx=2.3, vy=0.6)
+    b = col.Vehicle(mass=1500, yaw_inertia=2550, x=1.95, y=-1.18, heading=-1.26, vx=3.7, vy=-11.7)
+    contact = {"normal": 0.42, "point": (0.0, 0.0)}
+    in_time = contact | {"duration": 0.1, "geometry": geometry}
+    with pytest.raises(col.NoSolutionError) as as_limit:
+        col.eccentric(a, b, 0.1, friction=math.inf, law="stronge", **contact)
+    with pytest.raises(col.NoSolutionError) as refused:
+        col.time_resolved(a, b, 0.1, friction=math.inf, **in_time)
+    assert refused.value.code == as_limit.value.code == "no_slip_pulls"
+    # It is the bound that is missing, and a contact that presses first has an answer without one.
+    friction = np.array([0.5, math.inf])
+    found = col.time_resolved(a, b, 0.1, friction=friction, **in_time, on_failure="nan")
+    assert found.status.tolist() == [col.Status.OK, col.Status.NO_SLIP_PULLS]
+    slower = b.replace(vx=-8.0, vy=-1.7)
+    assert col.time_resolved(a, slower, 0.1, friction=math.inf, **in_time).normal_impulse > 100.0
+
+
+@pytest.mark.parametrize("geometry", ["fixed", "first_contact"])
+def test_which_contacts_friction_parts_at_once(geometry):
+    """The same of random pairs as under "stronge", each once."""
+    random = np.random.default_rng(20261130)
+    n = 2000
+
+    def cars(side):
+        return col.Vehicle(
+            mass=random.uniform(900.0, 2500.0, n),
+            yaw_inertia=random.uniform(1200.0, 4500.0, n),
+            x=side * random.uniform(1.0, 2.4, n),
+            y=random.uniform(-1.2, 1.2, n),
+            vx=-side * random.uniform(-2.0, 20.0, n),
+            vy=random.uniform(-12.0, 12.0, n),
+        )
+
+    pair, restitution = (cars(-1.0), cars(1.0)), random.uniform(0.0, 0.3, n)
+    contact = {"normal": random.uniform(-0.6, 0.6, n), "point": (0.0, 0.0), "friction": math.inf}
+    nan = {"on_failure": "nan"}
+    instant = col.eccentric(*pair, restitution, law="stronge", **contact, **nan)
+    found = col.time_resolved(*pair, restitution, **contact, duration=0.1, geometry=geometry, **nan)
+    assert np.array_equal(found.status, instant.status)
+    assert 5 < np.sum(found.status == col.Status.NO_SLIP_PULLS) < 50
+
+
 def test_a_batch_without_friction_or_slip_is_frictionless():
     """As the case by itself: with nothing along the tangent the contact neither slides nor is held
     by friction.

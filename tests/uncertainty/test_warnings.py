@@ -5,6 +5,7 @@ once where it matters.
 import json
 import math
 import warnings
+from concurrent.futures import ThreadPoolExecutor
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -340,6 +341,52 @@ def test_a_model_of_both_kinds_says_what_is_sure():
         f"at least {sum(below)} of 512 cases, and {sum(alone)} warnings from calls that were not "
         "given all cases as arrays, so the share is not known: speed_a is below 0"
     )
+
+
+@pytest.mark.parametrize("made", ["each time", "before"])
+def test_a_model_with_threads_of_its_own_is_given_no_share(made):
+    """What solvers warn of there, and why cases have no answer, is stated with how often it was
+    said, and given there too, as the thread may as well be another's.
+    """
+    striking = col.Vehicle(mass=1500, vx=0.0, yaw_inertia=2500, x=-2.0, y=0.0)
+    struck = col.Vehicle(mass=1250, vy=12.0, yaw_inertia=1900, x=0.9, y=-0.4)
+
+    def solved(speed):
+        impact = col.eccentric(
+            striking.replace(vx=speed),
+            struck,
+            0.1,
+            normal=0.0,
+            point=(0.0, 0.2),
+            friction=math.inf,
+            on_failure="nan",
+        )
+        return impact.a.delta_v
+
+    with ThreadPoolExecutor(2) as whole:
+
+        def model(speed):
+            parts = np.array_split(speed, 2)
+            if made == "before":
+                return {"delta_v": np.concatenate(list(whole.map(solved, parts)))}
+            with ThreadPoolExecutor(2) as own:
+                return {"delta_v": np.concatenate(list(own.map(solved, parts)))}
+
+        inputs = {"speed": Normal(6.0, 3.0)}
+        found, caught = quiet(lambda: propagate(model, inputs, samples=256, seed=1))
+    plain, _ = quiet(
+        lambda: propagate(lambda speed: {"delta_v": solved(speed)}, inputs, samples=256, seed=1)
+    )
+    assert {one.code for one in plain.notes} == {one.code for one in found.notes}
+    assert {"may_slide", "refused_cases"} <= {one.code for one in found.notes}
+    note = of_code(found, "may_slide")
+    assert note.fields == {"cases": None, "share": None, "times": 2}
+    assert note.statement.startswith("2 warnings from calls that were not given all cases")
+    assert "may_slide" in {one.message.code for one in caught}
+    assert any("it slid" in text for text in found.statements)
+    # Afterwards none of it goes to another study.
+    again, _ = quiet(lambda: propagate(lambda x: {"y": x}, {"x": Normal(0, 1)}, seed=1))
+    assert not again.statements
 
 
 def test_fits_and_posteriors_give_a_loop_no_share():

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import Any, ClassVar, NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -80,7 +80,7 @@ class Islands:
     """
 
     # Where the powers end.
-    end: ClassVar[float] = 1.0
+    end: float = 1.0
     points: Any
     likelihood: Any
     missed: Any

@@ -97,9 +97,10 @@ def posterior(
     finer : function, optional
         A model that takes the same unknowns and returns the same outputs, and costs more. The
         samples go towards the posterior of ``model`` first, until its likelihood to the power 0.15,
-        and from there to the posterior of ``finer``. The answer is that of ``finer`` alone, its
-        evidence included, wherever ``model`` leads, for five to twelve calls of it a sample, not a
-        hundred; the closer the two models are, the fewer. Values that fit under ``finer`` alone,
+        or a lower one where the two models differ by several errors of the readings, and from there
+        to the posterior of ``finer``. The answer is that of ``finer`` alone, its evidence included,
+        wherever ``model`` leads, for five to twelve calls of it a sample, not a hundred; the closer
+        the two models are, the fewer. Values that fit under ``finer`` alone,
         far from all that fit under ``model``, get no samples and are not found.
     tolerance : float [-] or dict, optional
         How far the model may be off, for a ``scene.Scene``: by result, as for ``Scene.required``;
@@ -360,6 +361,7 @@ class _Problem:
                     lambda scores: self.observables(finer, scores, not first),
                     self.judged,
                     self.apart,
+                    np.array([row.reading.sigma or self.softened[row.name] for row in self.rows]),
                 )
                 return FinerIslands(models, shape, random).found(within)
 

@@ -6,12 +6,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any, ClassVar, NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
 from .islands import Islands, Proposals, UnreachableError, step_of
 
+# The highest power of the first model's likelihood.
+_MOST_POWER = 0.15
 # As in islands.py; every move asks the finer model.
 _GONE, _MOST_MOVES, _GONE_LAST, _MOST_MOVES_LAST, _MOST_SWEEPS = 0.4, 2.0, 0.9, 5.0, 80
 # the last of them, where more than so many points lie where the first model has no answer: these
@@ -38,7 +40,7 @@ class FinerUnreachableError(Exception):
 
 class TwoModels(NamedTuple):
     """What two models compute; the likelihood of that, and by how much it misses, as ``Evaluate``
-    gives them; and how far the second of two such is from the first.
+    gives them; how far the second of two such is from the first; and the error of each observation.
 
     The likelihood must have softened sharp bounds, which the finer model may meet elsewhere.
     """
@@ -47,6 +49,17 @@ class TwoModels(NamedTuple):
     finer: Computed
     judged: Callable[[Any], tuple[Any, Any]]
     apart: Callable[[Any, Any], Any]
+    errors: Any
+
+
+class Stage(NamedTuple):
+    """Where the way to the first model's posterior was at a power."""
+
+    power: float
+    points: Any
+    likelihood: Any
+    missed: Any
+    log_evidence: Any
 
 
 # Logarithms of how likely points are nearly, of them, what the first model computes and its
@@ -59,7 +72,9 @@ class FinerIslands(Islands):
 
     The first model's likelihood is raised to the power ``end`` only, so that its posterior is wide
     enough to cover that of the finer model, and tails that only the finer one has are seen (from
-    the full power they were missed without a sign). From there the target rises along
+    the full power they were missed without a sign). Where the two differ by several errors of the
+    readings, it goes back to a lower power: half-way between them all points would be drawn to
+    where they differ least, and would not spread again. From there the target rises along
     likelihood**(end * (1 - share)) * finer_likelihood**share, in steps that leave half of the
     effective sample size: a path between two posteriors as between prior and posterior (P. Del
     Moral, A. Doucet, A. Jasra, 2006). Points go
@@ -71,7 +86,7 @@ class FinerIslands(Islands):
     by the finer model.
     """
 
-    end: ClassVar[float] = 0.15
+    end: float
     computed: Any
     finer: Any
     apart: Any
@@ -83,6 +98,8 @@ class FinerIslands(Islands):
     ) -> None:
         super().__init__(lambda points: self._first(points)[1:], shape, random)
         self.models = models
+        self.end = _MOST_POWER
+        self.stages: list[Stage] = []
         self.share: float | None = None
         self.floor, self.steps = -math.inf, 4.0
         # What the finer model was seen to compute: points, what the first one computes there, and
@@ -98,11 +115,18 @@ class FinerIslands(Islands):
     def _reach_posterior(self, report: Callable[[float], None]) -> None:
         """From the prior towards the posterior of the first model, and on to that of the finer."""
         super()._reach_posterior(lambda part: report(0.5 * part))
-        # From here on that to the power reached.
-        self.likelihood = self.end * self.likelihood
-        self._open_unanswered()
-        everywhere = np.ones(self.shape[:2], dtype=bool)
-        self.finer, self.missed, self.apart = self._finer_of(self.points, self.computed, everywhere)
+        while True:
+            # From here on that to the power reached.
+            self.likelihood = self.end * self.likelihood
+            self._open_unanswered()
+            everywhere = np.ones(self.shape[:2], dtype=bool)
+            self.finer, self.missed, self.apart = self._finer_of(
+                self.points, self.computed, everywhere
+            )
+            most = self._widest()
+            if most >= self.end:
+                break
+            self._go_back(most)
         self.share, self.limit = 0.0, math.inf
         self.carried = (*self.carried, "computed", "finer", "apart")
         answered = np.isfinite(self.finer)
@@ -121,6 +145,41 @@ class FinerIslands(Islands):
             self._meet_bounds()
         except UnreachableError:
             raise FinerUnreachableError from None
+
+    def _raise_power(self) -> None:
+        """The next power, from a place that is kept."""
+        kept = self.points, self.likelihood, self.missed, self.log_evidence
+        self.stages.append(Stage(self.power, *(part.copy() for part in kept)))
+        super()._raise_power()
+
+    def _widest(self) -> float:
+        """The power up to which the way from here leaves half of the effective sample size, by how
+        far the finer model is from the first one at each point.
+
+        Between likelihoods to the powers p (1 - s) and s of readings that two models put so far
+        apart, the way passes through this distance as often as at p (1 - s) s / (p (1 - s) + s) of
+        the inverse variance, which is p / (1 + sqrt(p))**2 at most.
+        """
+        apart = self.apart.reshape(-1, self.apart.shape[2]) / self.models.errors
+        squares = np.sum(apart**2, axis=1)
+        squares = squares[np.isfinite(squares)]
+        if not squares.size:
+            return self.end
+        most = self.end / (1.0 + math.sqrt(self.end)) ** 2
+        more, _, _ = step_of(-0.5 * squares[np.newaxis], most)
+        return self.end if more == most else (math.sqrt(more) / (1.0 - math.sqrt(more))) ** 2
+
+    def _go_back(self, power: float) -> None:
+        """To the last stage of the first model at this power or below, where its points go on until
+        they have gone far enough.
+        """
+        while self.stages[-1].power > power:
+            self.stages.pop()
+        stage = self.stages.pop()
+        self.power = self.end = stage.power
+        for name, value in stage._asdict().items():
+            setattr(self, name, value)
+        self._select(np.ones(self.shape[:2]))
 
     def _first_of(self, points: Any) -> tuple[Any, Any]:
         """What the first model computes, and its log-likelihood to the power of this path."""

@@ -321,9 +321,17 @@ def _status(start: SetUp, found: dict[str, Any], converged: Any, end: Moving, ge
     reach = sum(
         body.per_inertia * (body.rx * body.rx + body.ry * body.ry) for body in start.fixed[1:]
     )
-    turns = [abs(motion.spin) * start.fixed[0].step > _MOST_TURNED for motion in start.moving[:2]]
+    contact, a, b = start.fixed
+    turns = [abs(motion.spin) * contact.step > _MOST_TURNED for motion in start.moving[:2]]
     loss = passing.work_n + passing.work_t
-    absorbed = 0.5 * (start.fixed[0].stiffness * passing.deepest) * passing.deepest
+    absorbed = 0.5 * (contact.stiffness * passing.deepest) * passing.deepest
+    # Friction without bound stops the slip before the spring pushes. Where the bodies part by that,
+    # the answer would be that of one step, however short.
+    place = place_of(contact, a, b, *start.moving)
+    closing, slip = approach(place, *start.moving[:2])
+    k = compliance(place, a, b)
+    separates = (k.tt > 0.0) & (k.tt * closing + k.nt * slip <= 0.0)
+    pulls = (contact.friction == _MOST_FRICTION) & separates
     return first_status(
         (start.yields ^ True, Status.IMMOVABLE),
         (start.closing_speed < 0.0, Status.SEPARATING),
@@ -333,7 +341,7 @@ def _status(start: SetUp, found: dict[str, Any], converged: Any, end: Moving, ge
         (converged ^ True, Status.NO_START),
         (found["closing_speed"] <= 0.0, Status.SEPARATING),
         (finite ^ True, Status.OUT_OF_RANGE),
-        (passing.deepest <= 0.0, Status.NO_SLIP_PULLS),
+        (pulls | (passing.deepest <= 0.0), Status.NO_SLIP_PULLS),
         (passing.time >= LONGEST, Status.ENDLESS_CONTACT),
         # What the steps err by, near a restitution of 1, beyond rounding.
         (loss < -_ROUNDED * absorbed, Status.ENERGY_GAIN),

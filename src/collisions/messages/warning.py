@@ -84,6 +84,34 @@ class Note(NamedTuple):
 _quiet: ContextVar[bool] = ContextVar("quiet", default=False)
 _sampling: ContextVar[list[Said] | None] = ContextVar("sampling", default=None)
 _answer: ContextVar[int | None] = ContextVar("answer", default=None)
+# What is noted of each model that is called now, in whatever thread. A thread that a model starts
+# has a context of its own, in which no study is known.
+_called: dict[int, list[Said]] = {}
+
+
+def _studies() -> tuple[tuple[list[Said], bool], ...]:
+    """Where what is said here is noted, and whether the cases are those of that call of a model.
+
+    In a thread of a model's own they are not known, nor, where several studies go on at once,
+    whose it is: it is noted of each.
+    """
+    said = _sampling.get()
+    if said is not None:
+        return ((said, True),)
+    return () if _quiet.get() else tuple((one, False) for one in tuple(_called.values()))
+
+
+def _note(
+    sentences: Mapping[str, Any], kind: type[CollisionsWarning], code: str, least: float
+) -> bool:
+    """Note the sentences, each with where it holds; whether this thread is that of the study."""
+    own = False
+    for said, own in _studies():
+        said += (
+            Said(sentence, kind, code, where if own else None, least)
+            for sentence, where in sentences.items()
+        )
+    return own
 
 
 def warn(warning: CollisionsWarning, where: Any = None, sentence: str = "") -> None:
@@ -92,10 +120,13 @@ def warn(warning: CollisionsWarning, where: Any = None, sentence: str = "") -> N
     Within a study the sentence is noted in place of it: what it says without numbers that differ
     from call to call, and in which cases, as in ``Said``.
     """
-    said = _sampling.get()
-    if said is not None:
-        said.append(Said(sentence or warning.marked, type(warning), warning.code, where))
+    if _note({sentence or warning.marked: where}, type(warning), warning.code, SELDOM):
         return
+    _give(warning)
+
+
+def _give(warning: CollisionsWarning) -> None:
+    """Warn at the line of the first caller outside this package."""
     level, package = 1, __name__.partition(".")[0]
     frame: Any = sys._getframe()
     while frame is not None and frame.f_globals.get("__name__", "").partition(".")[0] == package:
@@ -112,47 +143,32 @@ def warn_of_cases(
     Within a study the ``parts`` are noted instead: what is said without numbers that belong to one
     case, and where, as in ``Said``; and raised where it is said of this share of all at ``least``.
     """
-    said = _sampling.get()
-    if said is not None:
-        said += (
-            Said(sentence, type(warning), warning.code, where, least)
-            for sentence, where in parts.items()
-        )
-    elif not _quiet.get():
-        warn(warning)
+    if not _note(parts, type(warning), warning.code, least) and not _quiet.get():
+        _give(warning)
 
 
 def in_study() -> bool:
     """Whether a model is called for the samples of a study, whose warnings are noted."""
-    return _sampling.get() is not None
+    return bool(_studies())
 
 
 def state_of_study(sentence: str, code: str) -> None:
     """State something of the model of a study, once in its result, without a warning; nothing
     outside a study.
     """
-    said = _sampling.get()
-    if said is not None:
-        said.append(Said(sentence, CollisionsWarning, code, None, math.inf))
+    _note({sentence: None}, CollisionsWarning, code, math.inf)
 
 
 def state_of_cases(parts: Mapping[str, Any], code: str) -> None:
     """State something of some cases of a study, with their number and without a warning, in parts
     as ``warn_of_cases`` has them; nothing outside a study.
     """
-    said = _sampling.get()
-    if said is not None:
-        said += (
-            Said(sentence, CollisionsWarning, code, where, STATED)
-            for sentence, where in parts.items()
-        )
+    _note(parts, CollisionsWarning, code, STATED)
 
 
 def warn_of_samples(warning: CollisionsWarning) -> None:
     """Note what is said of the samples of a study together, not of some of them."""
-    said = _sampling.get()
-    if said is not None:
-        said.append(Said(warning.marked, type(warning), warning.code, None, 0.0))
+    _note({warning.marked: None}, type(warning), warning.code, 0.0)
 
 
 @contextmanager
@@ -161,9 +177,12 @@ def quietly(said: list[Said] | None = None) -> Iterator[None]:
     cases are those of a study, and its warnings go there.
     """
     token, sampled = _quiet.set(True), _sampling.set(said)
+    if said is not None:
+        _called[id(said)] = said
     try:
         yield
     finally:
+        _called.pop(id(said), None)
         _quiet.reset(token)
         _sampling.reset(sampled)
 

@@ -22,7 +22,7 @@ from ..vehicle.tyres import Tyres
 _STEP = 2.0**-20
 # Shares of the size of what was known: below the first nothing better is looked for, below the
 # second it counts as reproduced.
-_MET, _SETTLED = 1e-12, 1e-9
+_MET, SETTLED = 1e-12, 1e-9
 # Evaluations in all, and how many may bring nothing in a row: a case that has settled, and one that
 # has not. Over 600 scenes all that settle do so with four that bring nothing at most.
 _MOST, _VAIN = 20, (2, 5)
@@ -72,14 +72,14 @@ def settle(
         better = size < left
         best, left = np.where(better, values, best), np.where(better, size, left)
         vain = np.where(better, 0.0, vain + 1.0)
-        over = vain >= np.where(left <= _SETTLED, *_VAIN)
+        over = vain >= np.where(left <= SETTLED, *_VAIN)
         active = np.isfinite(left) & (left > _MET) & ~over
         if not np.any(active):
             break
         move = np.where(better, _newton(slopes, found), 0.5 * move)
         move = np.where(np.isfinite(move) & active, move, 0.0)
         values = np.minimum(best - move, most)
-    return [best[i] for i in range(count)], left <= _SETTLED
+    return [best[i] for i in range(count)], left <= SETTLED
 
 
 def slopes_at(

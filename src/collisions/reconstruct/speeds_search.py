@@ -17,6 +17,7 @@ from ..engine.blocks import Part, in_parts, is_one_part
 from ..impact.inputs import Inputs
 from ..kernels.contact_laws import BRACH, FRICTION
 from .common import Cases, counted
+from .lasting import SETTLED
 from .recorder_place import Recorders, RecorderScene
 from .restitution_roots import RestitutionOf, crossings
 from .speeds_algebra import FREE, LAW, NO_ROOT, REDUNDANT, ROOT_TOL, Root, Scene
@@ -36,6 +37,12 @@ from .speeds_tyres import (
     speeds_with_tyres,
     starts_on_line,
 )
+
+# Of the closing speed: roots of several searches that differ by more are not one, however badly
+# conditioned.
+_ONE_ROOT = 1e-3
+# Where speeds may differ by more and still meet what is known, that repeats itself.
+_FREE = 0.1
 
 
 class _Looked(NamedTuple):
@@ -379,6 +386,7 @@ class Search:
                     np.where(np.isfinite(answer.speed_a[i]), inputs.restitution, np.nan),
                     condition,
                     np.where(fits[i] & ~ended, answer.closing[i] / unit, np.nan),
+                    one_of_many=condition * SETTLED > _FREE,
                     way=of_starts[i],
                 )
             )
@@ -387,7 +395,7 @@ class Search:
             for root, there in found
             if np.any(ended)
         ]
-        return attempt._replace(found=in_order(scene, roots, self.forward_only))
+        return attempt._replace(found=in_order(scene, roots, self.forward_only, SETTLED))
 
 
 def _with_friction(inputs: Inputs, friction: Any) -> Inputs:
@@ -471,8 +479,14 @@ def _with_function(scene: Scene, function: RestitutionOf) -> list[Root]:
     return found
 
 
-def in_order(scene: Scene, roots: list[Root], forward_only: bool) -> list[tuple[Root, Any]]:
-    """The distinct roots that fit, by rising closing speed, and their cases in the batch."""
+def in_order(
+    scene: Scene, roots: list[Root], forward_only: bool, met: float = 0.0
+) -> list[tuple[Root, Any]]:
+    """The distinct roots that fit, by rising closing speed, and their cases in the batch.
+
+    ``met`` is the share to which roots meet what is known; those of several searches for one root
+    may differ by its condition times as much.
+    """
     fitting = [root for root in roots if root is not NO_ROOT and np.any(root.closing > 0.0)]
     for root in fitting:
         scene.undetermined = scene.undetermined | ((root.closing > 0.0) & (root.one_of_many > 0.0))
@@ -481,7 +495,7 @@ def in_order(scene: Scene, roots: list[Root], forward_only: bool) -> list[tuple[
     if len(fitting) == 1 and scene.plain and not forward_only:
         return [(fitting[0], np.True_)]
     whole = np.array([[np.broadcast_to(part, scene.shape) for part in root] for root in fitting])
-    speeds_a, speeds_b, _, _, closing, *_ = np.moveaxis(whole, 1, 0)
+    speeds_a, speeds_b, _, condition, closing, *_ = np.moveaxis(whole, 1, 0)
 
     def sort() -> None:
         """Sort the answers by closing speed in every case, those left out last."""
@@ -492,8 +506,12 @@ def in_order(scene: Scene, roots: list[Root], forward_only: bool) -> list[tuple[
     if forward_only:
         closing[np.minimum(speeds_a, speeds_b) < -ROOT_TOL * closing] = np.nan
     sort()
-    apart = abs(speeds_a[1:] - speeds_a[:-1]) + abs(speeds_b[1:] - speeds_b[:-1])
-    closing[1:][apart <= ROOT_TOL * closing[1:]] = np.nan
+    for i in range(1, len(closing)):
+        # Others of the same closing speed may stand between two that are one.
+        apart = abs(speeds_a[i] - speeds_a[:i]) + abs(speeds_b[i] - speeds_b[:i])
+        blur = np.clip(met * condition[:i], ROOT_TOL, _ONE_ROOT)
+        again = (closing[:i] > 0.0) & (apart <= blur * closing[i])
+        closing[i] = np.where(np.any(again, axis=0), np.nan, closing[i])
     sort()
     return [
         (Root(*root), there)
