@@ -153,12 +153,12 @@ class FinerIslands(Islands):
         super()._raise_power()
 
     def _widest(self) -> float:
-        """The power up to which the way from here leaves half of the effective sample size, by how
-        far the finer model is from the first one at each point.
+        """The power up to which points do not crowd where the two models differ least.
 
-        Between likelihoods to the powers p (1 - s) and s of readings that two models put so far
-        apart, the way passes through this distance as often as at p (1 - s) s / (p (1 - s) + s) of
-        the inverse variance, which is p / (1 + sqrt(p))**2 at most.
+        On the way from the power p of the one likelihood to the other, at a share s, a point at
+        which the readings that the two compute are d errors apart weighs exp(-w d**2 / 2) beside
+        what fits both best, where w is p (1 - s) s / (p (1 - s) + s), at most p / (1 + sqrt(p))**2.
+        These weights are to leave half of the effective sample size.
         """
         apart = self.apart.reshape(-1, self.apart.shape[2]) / self.models.errors
         squares = np.sum(apart**2, axis=1)
