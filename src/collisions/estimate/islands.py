@@ -309,10 +309,10 @@ class Proposals:
         return self.mean + np.einsum("kij,knj->kni", self.root, found), gain
 
 
-def step_of(ratios: Any, most: float) -> tuple[float, Any, Any]:
-    """The power of these likelihood ratios, by their logarithms (islands, points), that leaves half
-    of the effective sample size, or ``most``; the greatest logarithm of each island, and by how
-    much the others are below it.
+def step_of(ratios: Any, most: float, least: float = 0.5) -> tuple[float, Any, Any]:
+    """The power of these likelihood ratios, by their logarithms (islands, points), that leaves so
+    much of the effective sample size, or ``most``; the greatest logarithm of each island, and by
+    how much the others are below it.
     """
     best = np.max(ratios, axis=1, keepdims=True)
     behind = ratios - best
@@ -322,11 +322,11 @@ def step_of(ratios: Any, most: float) -> tuple[float, Any, Any]:
         return float(np.mean(np.mean(weights, axis=1) ** 2 / np.mean(weights**2, axis=1)))
 
     more = high = most
-    if effective(high) < 0.5:
+    if effective(high) < least:
         low = min(high, 0.1 / max(-float(np.min(behind)), 1e-300))
         for _ in range(_BISECTIONS):
             more = math.sqrt(low) * math.sqrt(high)
-            low, high = (more, high) if effective(more) >= 0.5 else (low, more)
+            low, high = (more, high) if effective(more) >= least else (low, more)
     return more, best, behind
 
 

@@ -14,6 +14,9 @@ from .islands import Islands, Proposals, UnreachableError, step_of
 
 # The highest power of the first model's likelihood.
 _MOST_POWER = 0.15
+# Of the effective sample size, on the way from there; with less, regions in which the models differ
+# by more are all but lost.
+_LEFT = 0.9
 # As in islands.py; every move asks the finer model.
 _GONE, _MOST_MOVES, _GONE_LAST, _MOST_MOVES_LAST, _MOST_SWEEPS = 0.4, 2.0, 0.9, 5.0, 80
 # the last of them, where more than so many points lie where the first model has no answer: these
@@ -158,7 +161,7 @@ class FinerIslands(Islands):
         On the way from the power p of the one likelihood to the other, at a share s, a point at
         which the readings that the two compute are d errors apart weighs exp(-w d**2 / 2) beside
         what fits both best, where w is p (1 - s) s / (p (1 - s) + s), at most p / (1 + sqrt(p))**2.
-        These weights are to leave half of the effective sample size.
+        These weights are to leave most of the effective sample size.
         """
         apart = self.apart.reshape(-1, self.apart.shape[2]) / self.models.errors
         squares = np.sum(apart**2, axis=1)
@@ -166,7 +169,7 @@ class FinerIslands(Islands):
         if not squares.size:
             return self.end
         most = self.end / (1.0 + math.sqrt(self.end)) ** 2
-        more, _, _ = step_of(-0.5 * squares[np.newaxis], most)
+        more, _, _ = step_of(-0.5 * squares[np.newaxis], most, _LEFT)
         return self.end if more == most else (math.sqrt(more) / (1.0 - math.sqrt(more))) ** 2
 
     def _go_back(self, power: float) -> None:
