@@ -344,6 +344,19 @@ def test_json_of_a_scene_is_the_record_of_its_report(
     assert Run.from_dict(result["run"]) == row().run()
 
 
+def test_a_scene_without_headings_cannot_be_played() -> None:
+    """The refusal speaks of the file, not of Python."""
+    without = re.sub(r"(?m)^(heading|outline|at) = .*\n", "", ROW)
+    found = answers(read_text(without.encode()))
+    with pytest.raises(CaseError) as refused:
+        found.play()
+    ((key, text),) = refused.value.problems
+    assert key == "play"
+    assert re.fullmatch(
+        r"a picture needs heading of \w+; write what is missing into its table", text
+    )
+
+
 @pytest.mark.slow
 def test_the_example_of_places_of_rest_has_the_speed_of_a_slide() -> None:
     """By hand: both slid at the same drag, so momentum gives the speed before."""

@@ -231,6 +231,35 @@ def test_a_reading_finer_than_the_difference_of_the_models(error):
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("seed", [1, 2, 3])
+@pytest.mark.parametrize("sharp", [True, False])
+def test_an_unknown_that_matters_in_one_regime_of_the_finer_model(sharp, seed):
+    """There the models are some ten errors of the reading apart, and elsewhere alike."""
+
+    def regime(x):
+        return np.where(x > 9.5, 1.0, 0.0) if sharp else 1.0 / (1.0 + np.exp(-(x - 9.5) / 0.1))
+
+    def finer(x, y):
+        return {"v": x + y * regime(x)}
+
+    priors = {"x": Uniform(0.0, 20.0), "y": Normal(0.0, 1.0)}
+    found, codes = sampled(
+        lambda x, y: {"v": x}, priors, {"v": (10.0, 0.1)}, finer=finer, seed=seed
+    )
+    # Of each x the reading is one of y.
+    x = (np.arange(40000) + 0.5) * 20.0 / 40000
+    apart, sd = x - 10.0, np.hypot(0.1, regime(x))
+    weight = np.exp(-0.5 * (apart / sd) ** 2) / sd
+    mean = np.sum(weight * x) / np.sum(weight)
+    std = math.sqrt(np.sum(weight * (x - mean) ** 2) / np.sum(weight))
+    assert found["x"].mean == pytest.approx(mean, abs=0.15 * std)
+    assert found["x"].std == pytest.approx(std, rel=0.15)
+    top = x[np.searchsorted(np.cumsum(weight) / np.sum(weight), 0.975)]
+    assert found["x"].interval(0.95)[1] == pytest.approx(top, abs=0.4 * std)
+    assert "contradictory" not in codes
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize("places", ["b", "ab"])
 @pytest.mark.parametrize("error", [0.3, 0.1, 0.05])
 def test_places_of_rest_surveyed_more_closely_than_the_models_agree(places, error):

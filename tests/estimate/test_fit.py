@@ -677,6 +677,44 @@ def test_a_turning_point_that_fits_as_well_is_a_second_answer(high):
     assert math.isnan(turning.values["x"])
 
 
+BROKEN = {
+    "a kink": lambda x: np.where(x < 5, x, np.where(x < 6, 5 - 3 * (x - 5), 2 + (x - 6))),
+    "a jump": lambda x: np.where(x < 5, x, x - 3),
+    "a refusal": lambda x: np.where(x < 5, x, np.where(x < 7, np.nan, x - 4)),
+}
+
+
+@pytest.mark.parametrize("broken", BROKEN)
+@pytest.mark.parametrize("above", [0.001, 0.02, 0.08])
+@pytest.mark.parametrize("second", [False, True])
+def test_an_answer_where_the_model_bends_jumps_or_refuses_is_a_second_one(broken, above, second):
+    """No search converges at 5, which misses what was read by so little."""
+    far = {"a kink": 9.0, "a jump": 8.0, "a refusal": 9.0}[broken] + above
+
+    def model(x, y=0.0):
+        return {"v": BROKEN[broken](x) + y}
+
+    unknowns = {"x": Interval(0.0, 10.0)} | ({"y": Normal(0.0, 0.01)} if second else {})
+    with pytest.raises(col.AmbiguousSolutionError) as refused:
+        fit(model, unknowns, {"v": (5.0 + above, 0.05)})
+    one, other = refused.value.solutions
+    assert one["x"].value == pytest.approx(far, abs=1e-5)
+    assert other["x"].value == pytest.approx(5.0, abs=1e-3)
+    least = (above / 0.05) ** 2 if not second else above**2 / (0.05**2 + 0.01**2)
+    assert other.chi_squared == pytest.approx(least, abs=2e-3)
+
+
+@pytest.mark.parametrize("broken", BROKEN)
+def test_a_break_that_the_evidence_rules_out_is_no_answer(broken):
+    above = 0.15  # three errors
+    far = {"a kink": 9.0, "a jump": 8.0, "a refusal": 9.0}[broken] + above
+    found = fit(
+        lambda x: {"v": BROKEN[broken](x)}, {"x": Interval(0.0, 10.0)}, {"v": (5.0 + above, 0.05)}
+    )
+    assert found["x"].value == pytest.approx(far, abs=1e-6)
+    assert found["x"].interval(0.95) == pytest.approx((far - 0.098, far + 0.098), abs=1e-3)
+
+
 def test_a_rival_that_the_evidence_rules_out_is_none():
     """The other root misses the second observation by 40 sigma."""
 

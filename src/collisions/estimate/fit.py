@@ -46,6 +46,7 @@ from .least_squares import (
 from .profile import Found, followed, least_at, table
 
 _STARTS = 64
+_MOST_BROKEN = 3  # answers at which no search converges
 _PRIOR_SPAN = 3.0  # standard deviations of a prior within which searches start
 _FEW = 2  # searches that ended at the best, among more: there may be a better one
 _SAME_CHI_SQUARED = 1e-3  # misfits within this are the same
@@ -55,6 +56,7 @@ _AROUND, _NUDGE = (
     1e-2,
 )  # searches, and part of the scale of each unknown by which they start off at most
 _AGREEMENT = 1e-2  # of the scale of an unknown: values within this agree
+_ONE_BREAK = 0.1  # of the same: ends at a jump, a kink or a refusal within this are one
 _TWO_ERRORS = 2.0
 _STRAIGHT = 0.05  # of two errors: with a rise within this of it, an unknown has its range by slopes
 _TWO_SIDED = score_of_coverage(0.95)
@@ -569,15 +571,20 @@ class _Candidate:
             np.any(np.isinf(self.errors) & (np.ptp(here, axis=0) < _AGREEMENT * self.problem.scale))
         )
 
+    @cached_property
+    def around(self) -> Ends:
+        """Where searches from around the point end."""
+        away = np.minimum(_NUDGE * self.problem.scale, self.errors)
+        starts = self.point + spread(_AROUND, -away, away)
+        return minimise(self.problem, starts, close=_NUDGE)
+
     @property
     def on_a_ridge(self) -> bool:
         """Whether searches from around the point leave it for less: one that met a ridge exactly
         has no slope to follow.
         """
-        away = np.minimum(_NUDGE * self.problem.scale, self.errors)
-        starts = self.point + spread(_AROUND, -away, away)
-        again = minimise(self.problem, starts, close=_NUDGE)
-        return bool(np.min(again.chi_squared) < self.chi_squared - _SAME_CHI_SQUARED)
+        least = float(np.min(self.around.chi_squared))
+        return least < self.chi_squared - _SAME_CHI_SQUARED
 
     def overstates_errors(self) -> bool:
         """Whether an error is far too large wherever its unknown has room: its slope vanishes
@@ -742,14 +749,41 @@ def _check_minimum(best: _Candidate, ends: Ends, few: bool = True) -> None:
 def _rivals(best: _Candidate, ends: Ends) -> list[_Candidate]:
     """The best candidate, and others apart from it that the evidence does not exclude although the
     errors of the best do.
+
+    Where the model jumps, bends or refuses a search does not converge, and the misfit may still be
+    the least around.
     """
-    found = [best]
-    near = np.flatnonzero(ends.converged & (ends.chi_squared <= best.chi_squared + _TOO_CLOSE))
-    for k in near[np.argsort(ends.chi_squared[near], kind="stable")].tolist():
-        if all(one.is_apart(ends.points[k]) for one in found):
-            rival = _examined(best.inputs, best.problem._replace(size=None, reach=None), ends, k)
-            found += [] if rival.on_a_ridge else [rival]
+    found, most = [best], best.chi_squared + _TOO_CLOSE
+    broken = 0
+    for k in np.lexsort((ends.chi_squared, ~ends.converged)).tolist():
+        if broken == _MOST_BROKEN or not ends.chi_squared[k] <= most:
+            continue
+        rival = _apart_from(found, ends, k)
+        for _ in range(_STEP_ROUNDS):
+            if rival is None or rival.converged or not rival.on_a_ridge:
+                break
+            # Along a kink or an edge a search stops before the least.
+            rival = _apart_from(found, rival.around, int(np.argmin(rival.around.chi_squared)))
+        if rival is not None and not rival.on_a_ridge:
+            found.append(rival)
+            broken += not rival.converged
     return found
+
+
+def _apart_from(found: list[_Candidate], ends: Ends, k: int) -> _Candidate | None:
+    """The candidate where search k ended, if that is apart from all that were found."""
+    point, best = ends.points[k], found[0]
+    # Slopes at a jump give no error to judge by, and searches stop all along one.
+    away = (
+        np.any(
+            abs(one.way_to(point))
+            > (_AGREEMENT if one.converged else _ONE_BREAK) * one.problem.scale
+        )
+        for one in found
+    )
+    if (ends.converged[k] or all(away)) and all(one.is_apart(point) for one in found):
+        return _examined(best.inputs, best.problem._replace(size=None, reach=None), ends, k)
+    return None
 
 
 def _ambiguous(fits: list[Fit]) -> AmbiguousSolutionError:

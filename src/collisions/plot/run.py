@@ -94,8 +94,9 @@ def tracks_of(run: Any, function: str, placed: bool = True) -> dict[str, Track]:
         lacking = [one for one in ("x", "y", "heading") if getattr(mover.vehicle, one) is None]
         if lacking and placed:
             raise MissingInputError(
-                f"{function} needs {', '.join(lacking)} of {name}; write "
-                f"Vehicle({', '.join(f'{one}=...' for one in lacking)})",
+                f"`|{function} needs|a picture needs` {', '.join(lacking)} of {name}; "
+                f"`|write Vehicle({', '.join(f'{one}=...' for one in lacking)})"
+                "|write what is missing into its table`",
                 code=f"missing_{lacking[0]}",
                 argument=f"{name}.{lacking[0]}",
             )
