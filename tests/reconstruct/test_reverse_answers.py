@@ -466,6 +466,49 @@ def test_a_number_that_was_changed_in_a_record_is_refused(changed, said):
         replay(tampered(page, lambda r: r["impact"]["results"]["reconstruction"].update(changed)))
 
 
+def of_planar_stuck():
+    """At a friction of 1.0 the contact sticks: a greater one would change no number of it."""
+    place = PLACE | {"friction": 1.0, "law": "kudlich-slibar"}
+    end, more = (col.eccentric(A, B, 0.1, **place | {"friction": mu}) for mu in (1.0, 5.0))
+    assert end.regime == "sticking"
+    assert end.a.after == more.a.after
+    return reconstruct.planar(end.a.after, end.b.after, restitution=0.1, regime="sticking", **place)
+
+
+@pytest.mark.parametrize(
+    ("solve", "name"),
+    [
+        (of_planar_stuck, "friction"),
+        (of_planar_stuck, "restitution"),
+        (of_planar, "friction"),
+        (of_central, "vb"),
+    ],
+)
+def test_an_input_that_was_changed_where_a_record_says_what_was_given_is_refused(solve, name):
+    """Inputs stand in a record a second time as what the reverse solver was given, also those that
+    the answer does not depend on; both are one number.
+    """
+    found = solve()
+    given = found.reconstruction.given[name]
+    assert given == {"vb": found.inputs.b.vx, "restitution": found.restitution}.get(
+        name, found.inputs.rule_value
+    )
+    page = report(found, form="markdown", figures=False)
+    assert replay(page) == found
+    for other in (given * (1.0 + 1e-6), given * 1.02, given + 4.2, "inf"):
+
+        def change(record, other=other):
+            given_of(record)[name] = other
+
+        with pytest.raises(col.InputError):
+            replay(tampered(page, change))
+        record = json.loads(json.dumps(found.to_dict()))
+        change({"impact": record})
+        for of in (col.explain, report, col.diagnose):
+            with pytest.raises(col.InputError):
+                of(col.Impact.from_dict(record))
+
+
 @pytest.mark.slow
 def test_a_duration_beside_tyres_and_a_recorder_that_was_changed_is_refused():
     """The duration of the tyres is that of the recorder: what it was given stands twice."""

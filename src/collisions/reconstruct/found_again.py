@@ -11,6 +11,8 @@ from dataclasses import replace
 from operator import attrgetter
 from typing import Any, get_args
 
+import numpy as np
+
 from ..impact.impact import Impact
 from ..impact.inputs import TYRES
 from ..impact.reconstruction import KNOWN, AsRecorded, Reconstruction, known_in_words
@@ -105,11 +107,11 @@ def contradicted_origin(impact: Impact) -> Iterator[str]:
     if unsaid:
         does = "says" if unsaid & said else "does not say"
         yield f"it {does} what {min(unsaid)} was given to its reverse solver"
-    for name, value in again.given.items():
+    for name, value in {**again.given, **_given_inputs(impact, origin)}.items():
         if name in origin.given and not _same_number(origin.given[name], value):
             yield (
                 f"it says that {name} was given to its reverse solver as "
-                f"{origin.given[name]:.6g}, and its inputs have {value:.6g}"
+                f"{origin.given[name]!r}, and its inputs have {value!r}"
             )
     if origin.known != again.known:
         yield (
@@ -138,8 +140,26 @@ def contradicted_origin(impact: Impact) -> Iterator[str]:
         )
 
 
-def _same_number(one: Any, other: Any) -> bool:
-    return math.isclose(one, other, rel_tol=_TIE) or (math.isnan(one) and math.isnan(other))
+def _given_inputs(impact: Impact, origin: Reconstruction) -> dict[str, Any]:
+    """The inputs of the impact that its reverse solver was given and did not change, by name: how
+    the answer was found need not show them, such as the friction of a contact that stuck.
+    """
+    inputs = impact.inputs
+    of_contact = {"restitution": inputs.restitution, inputs.rule: inputs.rule_value}
+    stay = {name: value for name, value in of_contact.items() if name not in origin.found}
+    if origin.method == "central":
+        stay |= {"va": inputs.a.vx, "vb": inputs.b.vx}
+    return stay
+
+
+def _same_number(given: float, stands: float) -> bool:
+    """Whether a number that was given is one that stands elsewhere, but for rounding, in a case of
+    a batch of float32 to its digits.
+    """
+    if math.isnan(given):
+        return math.isnan(stands)
+    with np.errstate(over="ignore"):
+        return math.isclose(given, stands, rel_tol=_TIE) or float(np.float32(given)) == stands
 
 
 def _same_condition(one: Reconstruction, other: Reconstruction) -> bool:
