@@ -242,6 +242,60 @@ def test_two_crush_stiffnesses_in_series():
     assert many.to_columns()["pulse.residual_crush_a"] == many.pulse.residual_crush_a.tolist()
 
 
+def test_no_crush_that_is_left_and_no_work_of_tyres_are_zeros_without_a_sign():
+    """Alone, in a batch, and with a unit; a case without an answer stays NaN."""
+    car = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, vx=1.0, x=-2.0, y=0.0)
+    crush = {"crush_a": (60e3, 700e3, 1.5)}
+    one = col.time_resolved(car, WALL, 0.1, **STRAIGHT, **crush)
+    many = col.time_resolved(
+        car.replace(vx=np.array([1.0, 2.0, -1.0])), WALL, 0.1, **STRAIGHT, **crush,
+        on_failure="nan",
+    )  # fmt: skip
+    for found in (one.pulse.residual_crush_a, one.pulse.residual_crush, one.a.tyre_loss):
+        assert math.copysign(1.0, found) == 1.0
+        assert found == 0.0
+    assert str(one.pulse.q.residual_crush_a.magnitude) == "0.0"
+    for name in ("pulse.residual_crush_a", "pulse.residual_crush", "a.tyre_loss"):
+        column = many.to_columns()[name]
+        assert [str(value) for value in column[:2]] == ["0.0", "0.0"]
+        assert math.isnan(column[2])
+
+
+@pytest.mark.parametrize(
+    ("width", "worst"),
+    [(60, 60), (10.1, 10.1), (np.array([1.5, 60.0]), 60), (9.9, None), ("60 in", None),
+     ("60 m", None)],
+)  # fmt: skip
+def test_a_bare_width_of_crush_is_suspected_as_that_of_a_profile_is(width, worst):
+    """One limit for both: what ``crush_energy`` takes for another unit, this does too."""
+    car = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, vx=10.0, x=-2.0, y=0.0)
+    crush = 60e3, 700e3, width
+
+    def suspected(solve):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            solve()
+        return [one.message for one in caught if one.message.code == "suspect_units"]
+
+    found = suspected(lambda: col.time_resolved(car, WALL, 0.1, **STRAIGHT, crush_a=crush))
+    of_profile = suspected(
+        lambda: col.reconstruct.crush_energy(
+            [width] if isinstance(width, np.ndarray) else width, [0.3, 0.3], 60e3, 700e3
+        )
+    )
+    assert [one.fields["value"] for one in found] == [one.fields["value"] for one in of_profile]
+    assert [one.fields["value"] for one in found] == ([] if worst is None else [worst])
+    for one in found:
+        assert str(one) == (
+            f"crush_a[2] = {worst:g} is read as metres of width; if another unit was meant, write "
+            f"'{worst:g} cm' or '{worst:g} in'"
+        )
+    of_b = {"crush_b": crush, "crush_a": (60e3, 700e3, 1.5)}
+    other = car.replace(x=2.0, vx=0.0)
+    found = suspected(lambda: col.time_resolved(car, other, 0.1, **STRAIGHT, **of_b))
+    assert [one.fields["argument"] for one in found] == ([] if worst is None else ["crush_b[2]"])
+
+
 # Fixed geometry without tyres: energetic restitution
 
 

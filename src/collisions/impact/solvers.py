@@ -498,6 +498,12 @@ def time_resolved(
         Neither body can yield; no start leads to the positions given; the contact does not end
         within three nominal durations; or a vehicle turns by more than 0.25 rad within a step.
 
+    Warns
+    -----
+    SuspectUnitsWarning
+        A duration above 1 s, a width of crush above 10 m, a drag above 1.5, or a wheelbase or track
+        larger than that of any vehicle, given without a unit.
+
     Notes
     -----
     The integration is position Verlet. At 100 steps the error is about 3e-5 of delta-V with fixed

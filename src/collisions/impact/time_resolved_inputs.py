@@ -52,6 +52,8 @@ DOMAINS = {
 _FEWEST, _MOST = 10, 100_000
 _STEPS = 100
 _SIZES = {"wheelbase": 2.7, "track": 1.5}
+# In metres: no damage is so wide, so a bare number beyond is in another unit.
+WIDEST_DAMAGE = 10.0
 # Cases of a block; fewer than so many are faster one by one.
 _BLOCK, _FEW = 1024, 128
 _STIFFNESS = (
@@ -224,12 +226,14 @@ def _read_crush(reader: ArgumentReader, value: Any, name: str) -> Any:
             f"m')`, got {shown(value)}"
         )
         return reader.refuse(ShapeError(text, code="bad_shape", argument=name))
-    return tuple(
+    found = tuple(
         reader.number(part, unit, f"{name}[{at}]", domain)
         for at, (part, unit, domain) in enumerate(
             zip(value, CRUSH_UNITS, DOMAINS[name], strict=True)
         )
     )
+    warn_if_large(value[2], found[2], WIDEST_DAMAGE, f"{name}[2]", "metres of width", "cm", "in")
+    return found
 
 
 def crushes(inputs: Inputs) -> dict[str, tuple[Any, ...]]:
@@ -245,7 +249,8 @@ def residual_crushes(inputs: Inputs, peak_force: Any) -> dict[str, Any]:
     found = {}
     for label, (begins, growth, width) in crushes(inputs).items():
         left = (peak_force / width - begins) / growth
-        found[label] = select(left < 0.0, 0.0 * left, left)
+        # 0 without a sign, and NaN where there is no answer.
+        found[label] = select(left > 0.0, left, abs(0.0 * left))
     return found
 
 

@@ -300,7 +300,7 @@ def _of_body(
         "tyre_impulse_x": last.tyre_x * units.impulse,
         "tyre_impulse_y": last.tyre_y * units.impulse,
         "tyre_moment": last.tyre_yaw * (units.impulse * units.length),
-        "tyre_loss": -last.tyre_work * units.energy,
+        "tyre_loss": (0.0 - last.tyre_work) * units.energy,
         "peak_acceleration": last.acceleration**0.5 * (units.closing / units.duration),
         "moved_x": (last.dx - given.dx) * units.length,
         "moved_y": (last.dy - given.dy) * units.length,

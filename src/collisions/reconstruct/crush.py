@@ -11,6 +11,7 @@ from typing import Any, cast
 import numpy as np
 
 from ..impact.run import error_of, warn_of_refusals
+from ..impact.time_resolved_inputs import WIDEST_DAMAGE
 from ..kernels.elementwise import POSITIVE, UNIT_INTERVAL
 from ..kernels.status import Status
 from ..messages.errors import OutOfRangeWarning, ShapeError
@@ -24,8 +25,8 @@ from ..quantities.units import Input, Value, has_unit, is_quantity, shown
 from .common import ASK_ALONE, Cases, input_faults, read_masses
 
 _RIGHT_ANGLE = 2.0**-52  # the cosine of 90 degrees in radians is not exactly 0
-# In metres: no car is crushed so deep, and no damage is so wide.
-_DEEPEST, _WIDEST = 2.0, 10.0
+# In metres: no car is crushed so deep.
+_DEEPEST = 2.0
 _MOST_OBLIQUE = math.radians(
     45.0
 )  # where the correction reaches 2, as far as the CRASH programs take it
@@ -139,7 +140,8 @@ def crush_energy(
     numbers = amounts | {"stiffness_b": b, "force_angle": angle.value}
     cases = Cases.of(numbers)
     _warn_if_large(depths, crush, _DEEPEST, "depths", np.fmax)
-    _warn_if_large(widths, whole if isinstance(whole, list) else [whole], _WIDEST, "widths", np.add)
+    width = whole if isinstance(whole, list) else [whole]
+    _warn_if_large(widths, width, WIDEST_DAMAGE, "widths", np.add)
     cosine = angle.beside((*amounts.values(), b)).direction[0]
     oblique = np.less(cosine, math.cos(_MOST_OBLIQUE) * (1.0 - 1e-12)) & np.greater(
         cosine, _RIGHT_ANGLE
