@@ -53,10 +53,10 @@ def example_3(friction=0.0, **changes):
     return col.eccentric(a, b, 0.80, normal=0.0, point=(0.0, 4.0), friction=friction)
 
 
-def crossroads(solver=col.eccentric, e=0.2, normal="10 deg", **options):
-    """Two cars at an angle."""
+def crossroads(solver=col.eccentric, e=0.2, normal="10 deg", b=None, **options):
+    """Two cars at an angle, or the first and another body."""
     a = col.Vehicle(mass=1500, yaw_inertia=2500, x=-2.2, y=0.0, vx=14.0, heading=0.0, name=NAME)
-    b = col.Vehicle(mass=1200, yaw_inertia=1900, x=0.85, y=0.9, vy=8.0, heading="90 deg")
+    b = b or col.Vehicle(mass=1200, yaw_inertia=1900, x=0.85, y=0.9, vy=8.0, heading="90 deg")
     point = {} if solver is col.oblique_central else {"point": (0.0, 0.1)}
     return solver(
         a,
@@ -305,6 +305,7 @@ PUSHED = {
     "tyres and a push": {**TYRES, "outside_a": PUSH},
     "a push": {"outside_a": PUSH},
     "a push on each": {"outside_a": PUSH, "outside_b": (-30.0, 10.0, 0.0)},
+    "a push beside a moving wall": {"outside_a": PUSH, "b": col.Vehicle.barrier(vx=-3.0)},
     "incomplete": {"e": -0.3, "incomplete": True},
 }
 

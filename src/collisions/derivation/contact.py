@@ -419,6 +419,7 @@ def kinetic_energies(page: Page, s: Symbols, lost: Symbol | None = None) -> None
             "A body of infinite mass or inertia that moves has no finite kinetic energy: (7) is "
             "no check here."
         )
+        _works(page, s)
         return
     terms: list[tuple[float, Symbol]] = []
     for body, when, value, formula in states:
@@ -435,7 +436,7 @@ def kinetic_energies(page: Page, s: Symbols, lost: Symbol | None = None) -> None
         else:
             turning = ", of translation and rotation" if body.state(when).yaw_rate else ""
             page.equation(f"Kinetic energy of {body.label} {when}{turning}", symbol, formula)
-    works = [_work(page, body) for body in s.bodies if body.outside is not None]
+    works = _works(page, s)
     terms += [(1.0, work) for work in works]
     before_first = sorted(terms, key=lambda term: -term[0])
     with_work = ", with that work" if works else ""
@@ -444,6 +445,10 @@ def kinetic_energies(page: Page, s: Symbols, lost: Symbol | None = None) -> None
         lost or s.loss,
         signed_total(before_first),
     )
+
+
+def _works(page: Page, s: Symbols) -> list[Symbol]:
+    return [_work(page, body) for body in s.bodies if body.outside is not None]
 
 
 def _work(page: Page, body: Body) -> Symbol:
