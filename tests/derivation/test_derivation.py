@@ -36,6 +36,9 @@ NAME = "A_1 $x$ | \\b"
 NUMBER = re.compile(r"(?<![\w.])\d+(?:\.\d+)?(?![\w.])")
 
 
+HELD = {"drag_a": 0.417, "drag_b": 0.613}
+
+
 def example_1(e=0.1, vb=0.0):
     """A vehicle against a fixed body."""
     return col.linear_central(col.Vehicle(mass=1100.0, vx="50 km/h"), col.Vehicle.barrier(vx=vb), e)
@@ -175,6 +178,18 @@ def reverse():
                             yield f"{which}central {known}", solution
                     except col.NoSolutionError:
                         assert which == "wall "
+    for mass, vb, own in (
+        (1279.0, 3.19, HELD),
+        (1279.0, 3.19, {"drag_b": 0.0}),
+        (math.inf, 9.0, HELD),
+    ):
+        before, times = {"va": 17.3, "vb": vb}, {"duration": 0.0973, **own}
+        held = reconstruct.central(1511.0, mass, **before, restitution=0.2, **times)
+        ends = {"energy_loss": held.energy_loss, "va_after": held.a.after.vx}
+        yield f"central held, B {mass} {own}, restitution", held
+        for known, value in ends.items():
+            found = reconstruct.central(1511.0, mass, **before, **{known: value}, **times)
+            yield f"central held, B {mass} {own}, {known}", found
     for law in ("brach", "kudlich-slibar"):
         forward = crossroads(e=0.3, impulse_ratio=-0.2, law=law)
         ends = (forward.a.after, forward.b.after)
@@ -464,6 +479,46 @@ def test_every_line_gives_the_number_of_the_result(index, equations):
     assert exact(equations) >= 6
     assert "numbers cancel" not in text
     assert check_lines(text) >= 5
+
+
+@pytest.mark.parametrize("units", UNITS)
+@pytest.mark.parametrize("given", [str, float], ids=["with units", "bare"])
+def test_drags_of_an_in_line_impact_are_given_and_lead_to_their_impulses(given, units):
+    """With the digits that were given, in derivation and report: drag times weight times duration,
+    as keyed in, is the impulse that is printed.
+    """
+    times = {"duration": "97.3 ms", "drag_a": "41.7 %"} if given is str else {"duration": 0.0973}
+    impact = reconstruct.central(
+        1511, 1279, va=17.3, vb=3.19, energy_loss=51300, **{**HELD, **times}
+    )
+    text = explain(impact, form="text", units=units)
+    page = col.report(impact, form="markdown", units=units, figures=False)
+    for table, between in ((text.partition("How the rest")[0], " +"), (page, r" \| ")):
+        for what, printed in (
+            ("duration of the contact with its tyres", "0.0973 s"),
+            ("drag of A while the contact lasts", "0.417"),
+            ("drag of B while the contact lasts", "0.613"),
+        ):
+            assert re.search(f"evidence{between}{what}{between}{re.escape(printed)}\\b", table)
+    scale = {"si": 1.0, "metric": 1e-3, "us": 0.224808943}[units]
+    lines = dict(blocks(text))
+    for label, drag, mass in (("A", 0.417, 1511.0), ("B", 0.613, 1279.0)):
+        formula, numbers, result = lines[f"Impulse of the drag of {label}:"]
+        assert formula.strip() == f"J_{label}x = -D_{label} * m_{label} * a_g * dt"
+        assert f"-{drag} * " in numbers
+        assert " * 0.0973" in numbers
+        printed = result.split()[1]
+        wanted = -drag * mass * 9.80665 * 0.0973 * scale
+        assert float(printed) == pytest.approx(wanted, rel=5e-4)
+        assert gives(worked_out(numbers.strip(" ="), False), printed, numbers)
+
+
+def test_an_impulse_that_is_not_that_of_its_drag_is_refused(monkeypatch):
+    """Both sides are compared, as of every equation."""
+    impact = reconstruct.central(1511, 1279, va=17.3, vb=3.19, vb_after=14.2, duration=0.1, **HELD)
+    monkeypatch.setattr("collisions.derivation.reverse.GRAVITY", 9.7)
+    with pytest.raises(col.InternalError, match="Impulse of the drag of A"):
+        explain(impact)
 
 
 @pytest.mark.parametrize("units", UNITS)

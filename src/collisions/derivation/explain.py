@@ -344,9 +344,12 @@ def impact_inputs(
             "length",
         )
     yield "contact", "restitution e", ("restitution",), (impact.restitution,), "number"
+    origin = impact.reconstruction
     for label, pushed in (("a", impact.inputs.outside_a), ("b", impact.inputs.outside_b)):
         if pushed is not None and any(pushed):
             what, name = f"impulse on {label.upper()} from outside", f"outside_{label}"
+            if origin is not None and origin.duration is not None:
+                what += ", worked out from its drag"
             yield (
                 "contact",
                 f"{what} (x, y)",

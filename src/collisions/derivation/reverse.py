@@ -17,6 +17,7 @@ from ..impact.reconstruction import (
     bounds_of,
     how_many,
     known_in_words,
+    number_beside,
     number_of_text,
 )
 from ..kernels.central import shares
@@ -24,6 +25,7 @@ from ..kernels.reverse import energy_of_speeds
 from ..quantities.tables import as_sentence
 from ..reconstruct.found_again import components_apart
 from ..reconstruct.speeds_components import COMPONENTS
+from ..vehicle.drag import GRAVITY
 from .expressions import HALF, ONE, ZERO, Expression, root
 from .models import Lever, impulse_in_scene_axes
 from .page import Page
@@ -77,7 +79,9 @@ def evidence_of(impact: Impact) -> list[Evidence]:
         if beside or any(name.startswith(f"{label}_after") for label in still):
             continue
         known, text, number = KNOWN[name], texts.get(name), numbers.get(name)
-        if number is None and text is not None:
+        if number is None and known.path.startswith("reconstruction."):
+            number = number_beside(origin, name)
+        elif number is None and text is not None:
             number = number_of_text(text, name)
         elif number is None and "_axes_" not in name:
             # The place of a recorder, whose parts are there, and the delta-V of the centre of mass,
@@ -276,24 +280,44 @@ def _shares(page: Page, s: Symbols) -> dict[str, Symbol]:
     return share
 
 
+def _impulses_of_drags(page: Page, s: Symbols) -> None:
+    """Write the impulse of the tyres of each vehicle, from the drags and the duration given."""
+    origin = s.impact.reconstruction
+    assert origin is not None
+    lasts: Any = origin.duration
+    duration = Symbol(r"\Delta t", lasts, "time")
+    gravity = Symbol("a_g", GRAVITY, "acceleration")
+    page.say(
+        f"Tyres act during the contact, {page.shown(duration)}, against the way from A to B: drag "
+        "times weight times duration is an impulse from outside."
+    )
+    page.equation("Standard gravity", gravity, gravity)
+    for body in s.bodies:
+        drag, push = getattr(origin, f"drag_{body.label.lower()}"), body.pushed("x")
+        if drag is None or body.fixed:
+            why = (
+                f"{body.label} has an infinite mass"
+                if body.fixed
+                else f"No drag of {body.label} was given"
+            )
+            page.fact(f"{why}: {page.shown(push)}.", (push, ZERO))
+            continue
+        factor = Symbol(f"D_{body.label}", drag, "number")
+        pulled = -(factor * body.mass * gravity * duration)
+        page.equation(f"Impulse of the drag of {body.label}", push, pulled)
+
+
 def _while_held(
     page: Page, s: Symbols, v: dict[str, Symbol], given: list[str], known: tuple[str, ...]
 ) -> None:
     """Write an in-line impact in which tyres act, by velocities with half of what they do."""
-    origin = s.impact.reconstruction
-    assert origin is not None
-    duration: Any = origin.duration
-    own: Any = origin.drag_a, origin.drag_b
     (a, b), e, g, r = s.bodies, s.e, s.closing, s.separation
-    drags = ("none" if drag is None else page.system.answer(drag, "number") for drag in own)
-    page.say(
-        f"Tyres act during {page.number(duration, 'time')} with drags of "
-        f"{' (A) and '.join(drags)} (B): drag times weight times duration is an impulse from "
-        f"outside, {page.shown(a.pushed('x'))} and {page.shown(b.pushed('x'))}. It slows them by:"
-    )
+    _impulses_of_drags(page, s)
+    page.say("Such an impulse slows a vehicle by:")
     slowed = {}
     for body in (a, b):
-        by = ZERO if body.fixed else -(body.pushed("x") / body.mass)
+        push = body.pushed("x")
+        by = -(push / body.mass) if push.value else ZERO
         slowed[body.label.lower()] = page.let(
             f"Slowing of {body.label} by its tyres", f"s_{body.label}", "speed", by
         )
