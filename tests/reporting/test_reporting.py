@@ -2087,6 +2087,24 @@ def test_an_input_that_does_not_move_a_speed_has_a_zero_without_a_sign():
     assert not any(text.startswith(("+0 ", "-0 ")) for *_, text in found)
 
 
+def test_what_is_left_out_is_that_of_the_duration_of_the_impact():
+    """Unless another is given, 0.1 s too; both are remade from the record."""
+    tyres = {f"tyres_{label}": col.travel.Tyres(0.7, 0.3, 2.7, 1.5) for label in "ab"}
+    place = {"normal": 0.2, "point": (0.0, 0.0), "friction": 0.3}
+    drags = {"duration": 0.0837, "drag_a": 0.5, "drag_b": 0.6}
+    for impact in (
+        col.eccentric(A, B, 0.1, **place, duration=0.0837, **tyres),
+        col.eccentric(A, B, 0.1, **place, duration=0.0837, tyres_a=tyres["tyres_a"]),
+        reconstruct.central(1511, 1279, va=17.3, vb=3.19, restitution=0.1, **drags),
+    ):
+        for asked, taken in (({}, 0.0837), ({"duration": 0.1}, 0.1), ({"duration": "90 ms"}, 0.09)):
+            page = report(impact, form="markdown", units="si", figures=False, **asked)
+            assert f"| contact | duration taken | {taken} s |" in page
+            moved = col.left_out(impact, duration=taken).a.displacement_x
+            assert f"| A | travel during the contact (x, y) | {moved:.2f} m, " in page
+            assert report(replay(page), **options(page)) == page
+
+
 def _planar():
     ahead = col.eccentric(A, B, 0.3, normal=0.2, point=(0.0, 0.0), friction=0.3)
     return reconstruct.planar(

@@ -26,7 +26,7 @@ from ..quantities.attributes import unit_of
 from ..quantities.formatting import SI_UNITS
 from ..quantities.reading import ArgumentReader
 from ..quantities.refusals import must_be
-from ..quantities.settings import computing, units_required
+from ..quantities.settings import Default, computing, units_required
 from ..quantities.strict_json import strict
 from ..quantities.units import Texts, of_another_registry, rendered, shown
 from ..reconstruct import Fit, MomentumSolution, Posterior, momentum
@@ -136,6 +136,8 @@ def plain_options(given: Mapping[str, Any]) -> dict[str, Any]:
     found |= {
         name: _number(given[name], unit, name) for name, unit in _UNITS.items() if unit is not None
     }
+    # A default gives way to what the impact itself has, and 0.1 that was given does not.
+    found |= {name: given[name] for name in found if isinstance(given[name], Default)}
     if isinstance(given["limits"], Mapping):
         found["limits"] = {
             code: _number(value, LIMITS[code].unit, code) if code in LIMITS else value
