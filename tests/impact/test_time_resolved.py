@@ -1058,6 +1058,23 @@ def test_the_pulse():
     assert pulse.q.duration.m_as("ms") == pytest.approx(1e3 * pulse.duration)
 
 
+@pytest.mark.parametrize("geometry", ["fixed", "maximum_engagement"])
+def test_the_largest_acceleration_does_not_depend_on_the_step(geometry):
+    """Friction without bound stops the slip at once, which a step would make an acceleration of:
+    what is left is near that of the largest force, as of a contact with much friction.
+    """
+    for friction, apart in ((0.4, 2e-3), (1.0, 2e-3), (math.inf, 2e-3)):
+        peaks = []
+        for steps in (100, 400):
+            impact = t_bone(friction=friction, duration=0.1, geometry=geometry, steps=steps)
+            pulse = impact.pulse
+            peaks.append((pulse.peak_acceleration_a, pulse.peak_acceleration_b))
+            for peak, side in zip(peaks[-1], (impact.a, impact.b), strict=True):
+                least = pulse.peak_force / side.before.mass
+                assert least * (1.0 - 1e-9) <= peak <= 2.0 * least
+        assert peaks[0] == pytest.approx(peaks[1], rel=apart)
+
+
 @pytest.mark.slow
 def test_report_explain_diagnose():
     """The pages have the pulse, its inputs and its tyres; and a record that gives the

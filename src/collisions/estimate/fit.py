@@ -64,6 +64,7 @@ _OVERSTATED = 10.0  # times the errors that chi-squared shows: then the slope va
 _LEAST_MOVE = 0.1  # standard errors: smaller moves and smaller rises are not compared
 _FLAT_SHARE = 1e-6  # of the greatest slope: directions of less are left alone
 _TO_REFINE, _MOST_REFINED = 25.0, 6  # of chi-squared, and places, for a finer model to start from
+_ELSEWHERE, _ROUNDS_ELSEWHERE = 12, 4  # searches of a finer model alone, and how long at first
 _POSTERIOR = (
     "`|posterior(model, unknowns, observed, seed=1)|[posterior]`, with `Uniform(low, high)` of "
     "each unknown that has no prior"
@@ -221,6 +222,7 @@ def fit(
                 # It fits badly where the other model fits, and may fit elsewhere.
                 more = minimise(problem, _starts(inputs, problem))
                 ends = Ends(*map(np.concatenate, zip(ends, more, strict=True)))
+            ends = _with_elsewhere(inputs, problem, ends)
         best, ends, found_of = _followed(inputs, problem, ends, few=dearer is None)
         candidates = [best, *(one for one, _ in found_of[1:])]
         fits = []
@@ -276,6 +278,23 @@ def _ends_to_refine(inputs: _Inputs, problem: Problem, ends: Ends) -> Any:
         if len(chosen) < _MOST_REFINED and all(apart):
             chosen.append(k)
     return ends.points[chosen]
+
+
+def _with_elsewhere(inputs: _Inputs, problem: Problem, ends: Ends) -> Ends:
+    """With the ends of a few searches of a finer model alone, all over the bounds: it may fit as
+    well where the other model does not, as where only it can slide.
+    """
+    alone = problem._replace(scout=None)
+    some = minimise(alone, _starts(inputs, problem, _ELSEWHERE), rounds=_ROUNDS_ELSEWHERE)
+    near = some.chi_squared <= np.min(ends.chi_squared) + _TO_REFINE
+    apart = np.min(
+        np.max(abs(some.points[:, np.newaxis] - ends.points) / problem.scale, axis=2), axis=1
+    )
+    near &= apart > _ONE_BREAK
+    if not np.any(near):
+        return ends
+    more = minimise(alone, some.points[near])
+    return Ends(*map(np.concatenate, zip(ends, more, strict=True)))
 
 
 def _left_open(found: _Candidate, ends: Ends) -> Any:
@@ -396,12 +415,12 @@ def _read_inputs(function: Any, unknowns: Any, observed: Any) -> tuple[_Inputs, 
     )
 
 
-def _starts(inputs: _Inputs, problem: Problem) -> Any:
+def _starts(inputs: _Inputs, problem: Problem, count: int = _STARTS) -> Any:
     """Where to start: all over the bounds, or around the start as far as its scale, or three
     deviations of the prior.
     """
     points = spread(
-        _STARTS,
+        count,
         np.maximum(problem.low, inputs.start - problem.span),
         np.minimum(problem.high, inputs.start + problem.span),
     )

@@ -37,7 +37,8 @@ class Pulse(Shown):
         Largest distance by which the contact points passed into each other along the normal, both
         vehicles together.
     peak_acceleration_a, peak_acceleration_b : float or array [m/s**2]
-        Largest acceleration of the centre of mass, from contact and tyres.
+        Largest acceleration of the centre of mass, from contact and tyres, without the jump by
+        which a friction of ``inf`` stops the slip at once.
     residual_crush_a, residual_crush_b : float or array [m], optional
         With ``crush_a`` or ``crush_b``, what is left of the crush of the vehicle, as it is measured
         on it: that at the largest force less A/B. 0 where the contact was too light to leave any;

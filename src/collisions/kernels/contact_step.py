@@ -16,6 +16,8 @@ from .tyre import CORNERS, STANDING, Tyres, wheel_forces
 
 # After so many nominal durations a contact is not waited for any longer.
 LONGEST = 3.0
+# A friction without bound: its product with a force of 0 is 0.
+MOST_FRICTION = 1e150
 # Restitution ends when this share of its way is left.
 _LEFT = 1e-9
 
@@ -348,13 +350,14 @@ def _pushed(
     x: Any,
     y: Any,
     arm: tuple[Any, Any],
+    lasting: tuple[Any, Any],
     per_time: Any,
     tyres: Pull,
 ) -> Motion:
-    """The motion after an impulse, and the square of its largest acceleration so far, by that and
-    by the force of the tyres.
+    """The motion after an impulse, and the square of its largest acceleration so far, by what of
+    the impulse is ``lasting`` and by the force of the tyres.
     """
-    force_x, force_y = x * per_time, y * per_time
+    force_x, force_y = lasting[0] * per_time, lasting[1] * per_time
     if tyres is not _NO_PULL:
         force_x, force_y = force_x + tyres[0], force_y + tyres[1]
     ax, ay = body.per_mass * force_x, body.per_mass * force_y
@@ -486,8 +489,12 @@ def advance(
     px, py = place.nx * normal - place.ny * along, place.ny * normal + place.nx * along
     took = part * step
     per_time = _rate(took)
-    on_a = _pushed(a, on_a, -px, -py, (place.ax, place.ay), per_time, pulls[0])
-    on_b = _pushed(b, on_b, px, py, (place.bx, place.by), per_time, pulls[1])
+    # What friction without bound stops the slip by takes no time, and is no acceleration.
+    at_once = (contact.friction >= MOST_FRICTION) & (passing.sticks ^ True)
+    stops = select(at_once & (k.tt > 0.0), slip / select(k.tt > 0.0, k.tt, 1.0), 0.0)
+    fx, fy = px - place.ny * stops, py + place.nx * stops
+    on_a = _pushed(a, on_a, -px, -py, (place.ax, place.ay), (-fx, -fy), per_time, pulls[0])
+    on_b = _pushed(b, on_b, px, py, (place.bx, place.by), (fx, fy), per_time, pulls[1])
     mean = 0.5 * (closing + after)
     crush = crush + took * mean
     deepest = select(crush > deepest, crush, deepest)

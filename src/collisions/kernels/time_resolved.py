@@ -11,6 +11,7 @@ import numpy as np
 
 from .contact_step import (
     LONGEST,
+    MOST_FRICTION,
     Body,
     Contact,
     Motion,
@@ -41,8 +42,6 @@ _ROUGHLY, _ROUGH_CORRECTIONS = 0.3, 12
 # With this part of the steps it is found how the end changes with the start, where that has to move
 # by no more than so many times what is near enough: the change is found to a few hundredths.
 _DIFFERENCE, _NOT_FAR, _DIFFERENCES, _BLUR = 0.1, 20.0, 8, 0.1
-# A friction whose product with a force of 0 is 0.
-_MOST_FRICTION = 1e150
 # Rounding of a sum over the steps of a contact, as a share.
 _ROUNDED = 1e-12
 # Radians by which a body may turn within a step: above, answers are off by more than a percent.
@@ -213,7 +212,7 @@ def _set_up(
     contact = Contact(
         swing * swing,
         e,
-        select(friction < _MOST_FRICTION, friction, _MOST_FRICTION),
+        select(friction < MOST_FRICTION, friction, MOST_FRICTION),
         nx,
         ny,
         on_a=select(fixed_b, 1.0, select(fixed_a, 0.0, 0.5)),
@@ -331,7 +330,7 @@ def _status(start: SetUp, found: dict[str, Any], converged: Any, end: Moving, ge
     closing, slip = approach(place, *start.moving[:2])
     k = compliance(place, a, b)
     separates = (k.tt > 0.0) & (k.tt * closing + k.nt * slip <= 0.0)
-    pulls = (contact.friction == _MOST_FRICTION) & separates
+    pulls = (contact.friction == MOST_FRICTION) & separates
     return first_status(
         (start.yields ^ True, Status.IMMOVABLE),
         (start.closing_speed < 0.0, Status.SEPARATING),

@@ -395,6 +395,10 @@ class Search:
             for root, there in found
             if np.any(ended)
         ]
+        if not knows_speed:
+            # Without friction all knowns tell of the closing speed alone, and what tyres add to
+            # that may be the same over a range of speeds.
+            scene.undetermined = scene.undetermined | np.equal(attempt.inputs.rule_value, 0.0)
         return attempt._replace(found=in_order(scene, roots, self.forward_only, SETTLED))
 
 
