@@ -3,12 +3,15 @@ not installed.
 """
 
 import doctest
+import math
 import tomllib
 from pathlib import Path
 
+import mpmath
 import numpy as np
 import pytest
 
+import reference
 from collisions.kernels.central import linear_central, oblique_approximation
 from collisions.kernels.eccentric import eccentric
 from collisions.kernels.problem import Body, Contact, Problem
@@ -288,6 +291,109 @@ def test_without_friction_the_energy_lost_has_its_derivative(jax, law):
         return eccentric(Problem(contact, a, b), "friction", law).energy_loss
 
     assert float(jax.grad(lost)(0.0)) == pytest.approx((lost(1e-6) - lost(0.0)) / 1e-6, rel=1e-5)
+
+
+# Outputs, by their names in the reference.
+EXACT = {
+    "closing_speed": "closing", "slip_before": "slip", "slip_after": "slip_after",
+    "normal_impulse": "pn", "tangential_impulse": "pt", "energy_loss": "loss",
+    "energy_loss_normal": "loss_n", "energy_loss_tangential": "loss_t",
+    "delta_vx_a": "a.dvx", "delta_vy_a": "a.dvy", "delta_yaw_rate_a": "a.dw",
+    "delta_vx_b": "b.dvx", "delta_vy_b": "b.dvy", "delta_yaw_rate_b": "b.dw",
+}  # fmt: skip
+
+
+def exact_scene(kind, friction, law, rng):
+    """Restitution, angle of the normal, friction, point and both bodies, in numbers of few digits:
+    a slip or a coupling of 0 is one to the bit.
+    """
+
+    def number(low, high):
+        return float(round(64.0 * rng.uniform(low, high))) / 64.0
+
+    in_line, at_rest = kind in ("in line", "without coupling"), kind in ("in line", "without slip")
+    across = number(-5.0, 5.0) * rng.choice([0.0, 1.0])
+    found = [number(0.1, 0.9), 0.0, friction, 0.0, 0.0]
+    if law == "stronge" and rng.random() < 0.3:
+        found[0] *= -1.0
+    for ahead, speed in ((-2.0, number(4.0, 15.0)), (1.5, number(-9.0, 2.0))):
+        sideways = across if at_rest else number(-8.0, 8.0)
+        spin = 0.0 if at_rest else number(-1.0, 1.0)
+        left = 0.0 if in_line else number(-0.8, 0.8)
+        found += [number(800.0, 2500.0), number(900.0, 4000.0), speed, sideways, spin, ahead, left]
+    return found
+
+
+def in_sixty_digits(numbers, law):
+    """The outputs of such a scene by the reference."""
+    a, b = (reference.Body(*numbers[at : at + 7]) for at in (5, 12))
+    normal, point = mpmath.mp.cos_sin(numbers[1]), (numbers[3], numbers[4])
+    scene = reference.Scene(a, b, numbers[0], normal, point, "friction", numbers[2], law)
+    answer = reference.evaluate(scene)
+    assert answer.refused is None
+    found = []
+    for path in EXACT.values():
+        label, _, name = path.rpartition(".")
+        found.append(getattr(getattr(answer, label) if label else answer, name))
+    return found
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", ["in line", "without slip", "without coupling"])
+@pytest.mark.parametrize("law", ["brach", "kudlich-slibar", "stronge"])
+def test_without_friction_without_slip_or_in_line_every_derivative_is_one(jax, law, kind):
+    """All outputs by all inputs, against quotients of the reference on both sides: of an answer
+    that is smooth there the derivative is that of both, at a kink that of one.
+    """
+    rng = np.random.default_rng(len(kind))
+    frictions = (0.0, 0.0, 0.0, 0.25, 0.5, math.inf)
+    cases = [exact_scene(kind, friction, law, rng) for friction in frictions for _ in range(2)]
+
+    def outputs(x):
+        normal = jax.numpy.cos(x[1]), jax.numpy.sin(x[1])
+        contact = Contact(x[0], normal, x[2], (x[3], x[4]))
+        answer = eccentric(Problem(contact, Body(*x[5:12]), Body(*x[12:19])), "friction", law)
+        found = [getattr(answer, name) for name in ("status", "slip_before", "coupling", *EXACT)]
+        return jax.numpy.stack([jax.numpy.asarray(one, float) for one in found])
+
+    numbers = jax.numpy.asarray(cases)
+    status, slip, coupling, *_ = np.asarray(jax.vmap(outputs)(numbers)).T
+    assert not status.any()
+    assert (not slip.any()) == (kind != "without coupling")
+    assert (not coupling.any()) == (kind != "without slip")
+    slopes = np.asarray(jax.vmap(jax.jacfwd(outputs))(numbers))[:, 3:]
+    assert np.all(np.isfinite(slopes))
+    step = mpmath.mpf(10) ** -25
+    with mpmath.workdps(60):
+        for case, found in zip(cases, slopes, strict=True):
+            exact = [mpmath.mpf(number) for number in case]
+            middle = in_sixty_digits(exact, law)
+            for at in np.flatnonzero(np.isfinite(case)):
+                # There is no friction below 0.
+                sides = (1,) if at == 2 and case[at] == 0.0 else (1, -1)
+                quotients = [
+                    [
+                        float((beside - here) / (side * step))
+                        for beside, here in zip(
+                            in_sixty_digits(
+                                [one + side * step * (i == at) for i, one in enumerate(exact)], law
+                            ),
+                            middle,
+                            strict=True,
+                        )
+                    ]
+                    for side in sides
+                ]
+                for name, value, slope, *wanted in zip(
+                    EXACT, middle, found[:, at], *quotients, strict=True
+                ):
+                    # Rounding of the kernel: of terms that may cancel in the derivative.
+                    scale = 1e-9 * max(map(abs, wanted)) + 1e-12 * abs(float(value)) + 1e-9
+                    kink = max(wanted) - min(wanted) > scale
+                    apart = [abs(slope - one) for one in wanted]
+                    assert (min(apart) if kink else max(apart)) <= scale, (name, at, case)
+                    # Nothing but a friction that cannot hold the slip has a kink here.
+                    assert not kink or (law == "stronge" and kind == "without slip" and case[2])
 
 
 def test_the_extra_installs_what_is_tried_here():

@@ -119,10 +119,12 @@ def _coulomb(friction: Any, no_slip_n: Any, no_slip_t: Any) -> Tangent:
     # The no-slip impulse decides: the sign of the initial slip is the wrong one where the levers
     # reverse it. The limit is compared by multiplication, so that an infinite friction needs no
     # case of its own. Adding 0 turns a -0 into 0. A contact that sticks has no use for the ratio,
-    # and an infinite one would make its derivatives NaN.
+    # and an infinite one would make its derivatives NaN. Nor has one with nothing to hold, which
+    # the first little friction makes stick.
     matters = friction > 0.0
     sticks = matters & (no_slip_n > 0.0) & (abs(no_slip_t) <= friction * no_slip_n)
-    ratio = select(sticks, 0.0, select(no_slip_t < 0.0, -friction, friction) + 0.0)
+    idle = sticks | ((friction == 0.0) & (no_slip_t == 0.0))
+    ratio = select(idle, 0.0, select(no_slip_t < 0.0, -friction, friction) + 0.0)
     return Tangent(sticks, ratio, matters, pulls=(friction == inf) & (no_slip_n <= 0.0))
 
 
@@ -178,6 +180,7 @@ def energetic_contact(
     # time of 0 where its condition decides.
     ends = slows > 0.0
     never = (ends | (s == 0.0)) ^ True
+    at_rest = (ends | never) ^ True
     slip_stop_impulse = select(
         ends, s / select(ends, slows, 1.0), select(never & (yields <= 0.0), inf, 0.0)
     )
@@ -191,13 +194,15 @@ def energetic_contact(
     # normal impulse, a sum.
     coupling, k_tt = respond(0.0, 1.0)
     k_tt = select(k_tt == 0.0, 1.0, k_tt)
-    bounded = select(friction == inf, 0.0, friction)
-    excess_coupling = abs(coupling) - bounded * k_tt
-    reversing = (excess_coupling > 0.0) & (friction != inf)
-    excess_coupling = select(reversing, excess_coupling, 0.0)
     back = select(coupling < 0.0, 1.0, -1.0)
+    # As of the slip: not abs(coupling). Without a coupling the first little friction holds.
+    pushed = 0.0 - back * coupling
+    bounded = select((friction == inf) | (coupling == 0.0), 0.0, friction)
+    excess_coupling = pushed - bounded * k_tt
+    reversing = ((excess_coupling > 0.0) | (friction == 0.0)) & (friction != inf)
+    excess_coupling = select(reversing, excess_coupling, 0.0)
     ratio = select(reversing, back * bounded, -coupling / k_tt)
-    softer = stuck + excess_coupling * (abs(coupling) / k_tt)
+    softer = stuck + excess_coupling * (pushed / k_tt)
     softer = select(softer > 0.0, softer, 1.0)
     first = along * slip_stop_impulse
     work = select(compressing, 0.5 * first * (c + closing_at_stop), 0.0)
@@ -243,11 +248,12 @@ def energetic_contact(
     slides = slides | early
     reversing = reversing & (slides ^ True)
     to_stop = select(slides, to_end, slip_stop_impulse)
-    slip_left = select(slides, s - slows * to_end, 0.0)
+    # A slip of 0 that nothing slows stays what it is, of which its derivative is made.
+    slip_left = select(slides, s - slows * to_end, select(at_rest, s, 0.0))
     remaining_impulse = select(slides, 0.0, remaining_impulse)
     after = select(reversing, excess_coupling * remaining_impulse, 0.0)
     by_friction = 0.5 * across * to_stop * (s + slip_left) + select(
-        reversing, 0.5 * bounded * (remaining_impulse * after), 0.0
+        reversing, 0.5 * bounded * (remaining_impulse * (after + 2.0 * slip_left)), 0.0
     )
     return Passage(
         normal=(along * to_stop + remaining_impulse) * unit,
