@@ -160,6 +160,18 @@ CONTACT_REFUSALS = [
         "model 'linear_central' has no friction; leave it out, or use another",
     ),
     (
+        {"model": "linear_central", "friction": None, "law": "stronge"},
+        InputError,
+        "bad_combination",
+        "model 'linear_central' has no law; leave law out, or use another",
+    ),
+    (
+        {"model": "oblique_central", "normal": 0, "point": (1, 0)},
+        InputError,
+        "bad_combination",
+        "model 'oblique_central' has no point; leave point out, or use eccentric",
+    ),
+    (
         {"point": (1, 0)},
         MissingInputError,
         "missing_normal",

@@ -196,6 +196,8 @@ def from_record(record: Mapping[str, Any]) -> tuple[Inputs, str | None, Reconstr
         refused = any(Status(code) > Status.ENERGY_GAIN for code in np.ravel(status).tolist())
         velocity = _contact_velocity(found["contact_velocity"], np.shape(status))
         origin = _origin(record["results"]["reconstruction"], velocity)
+        if origin is None and velocity is not None:
+            raise bad_record("it has a contact_velocity, and no reverse solver that found one")
         a, b = (vehicle_of_record(found[label], refused and origin is not None) for label in "ab")
         given: dict[str, Any] = _texts(found["known"], origin)
         if found["bare_normal"] is not None:

@@ -28,6 +28,8 @@ from .speeds_components import ACCURACY
 # A condition that is worked out again from an answer differs by the errors of its differences, and
 # the more the greater it is itself, as it multiplies the rounding of the answer; never by more.
 _SAME_CONDITION, _BY_ROUNDING, _MOST_APART = 1e-4, 1e-12, 0.01
+# Of the contact velocity: as of motions that a machine with other rounding finds again.
+_SAME_VELOCITY = 1e-6
 # More than the rounding of angles in degrees, which a record has in radians.
 _TIE = 1e-12
 _APART = {
@@ -138,6 +140,24 @@ def contradicted_origin(impact: Impact) -> Iterator[str]:
             f"its inputs leave the speeds known by {again.one_sided or 'both sides'}, and it says "
             f"{origin.one_sided or 'both sides'}"
         )
+    if not _same_velocity(impact, origin.contact_velocity, again.contact_velocity):
+        pair = origin.contact_velocity
+        velocity = "none" if pair is None else " and ".join(f"{float(one):.6g}" for one in pair)
+        yield (
+            f"its contact_velocity is {velocity}, and the impact closes with "
+            f"{impact.closing_speed:.6g} m/s and slips with {impact.slip_before:.6g} m/s"
+        )
+
+
+def _same_velocity(impact: Impact, stands: Any, found: Any) -> bool:
+    """Whether a closing speed and a slip are there if the reverse solver finds them, and are those
+    of the impact, which leaves out what is not that of its motions.
+    """
+    if stands is None or found is None:
+        return stands is found
+    own = impact.closing_speed, impact.slip_before
+    apart = _SAME_VELOCITY * math.fsum(map(abs, own))
+    return all(abs(one - other) <= apart for one, other in zip(stands, own, strict=True))
 
 
 def _given_inputs(impact: Impact, origin: Reconstruction) -> dict[str, Any]:

@@ -5,7 +5,7 @@ energy and the record.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any, get_args
 
 import numpy as np
@@ -25,6 +25,7 @@ from ..quantities.units import kinds_in_degrees, shown
 from ..scene.results import result_of, results_of
 from ..scene.run import Run
 from ..uncertainty import Propagation
+from ..vehicle.tyres import Tyres
 from . import figures as drawing
 from . import sections
 from .answer import ranged_text
@@ -32,6 +33,7 @@ from .checking import FILED, Form
 from .posterior_part import warned_of
 from .record import record
 from .render import Html, Markdown, Printed, Sheet, plain
+from .scene_words import contact_in_words, input_in_words
 from .sections import EVIDENCE
 from .uncertainty import Spread
 
@@ -266,8 +268,17 @@ def vehicles(sheet: Sheet, run: Run, marks: Mapping[str, str] | None = None) -> 
     """
     rows = []
     marked = {path: f", {word}" for path, word in (marks or {}).items()}
+
+    def wheels(of: str, tyres: Tyres, path: str, when: str = "") -> Iterator[tuple[str, str, str]]:
+        for part, what, value, kind in wheel_rows(tyres):
+            word, size = marked.get(f"{path}.{part}", ""), float(value)
+            text = sheet.system.answer(size, kind) if word else sheet.number(size, kind)
+            yield of, f"{what}{when}", text + word
+
     for name, mover in run.scene.movers.items():
         of = plain(name)
+        if mover.vehicle.name not in ("", name):
+            rows.append((of, "name of the vehicle", plain(mover.vehicle.name)))
         if mover.outline is not None:
             length, width = (
                 sheet.number(float(size), "length") for size in np.ptp(mover.outline, axis=0)
@@ -278,13 +289,13 @@ def vehicles(sheet: Sheet, run: Run, marks: Mapping[str, str] | None = None) -> 
             text = sheet.system.answer(drag, "number") if word else sheet.number(drag, "number")
             rows.append((of, "drag factor", text + word))
         if mover.tyres is not None:
-            for part, what, value, kind in wheel_rows(mover.tyres):
-                word = marked.get(f"{name}.tyres.{part}", "")
-                size = float(value)
-                text = sheet.system.answer(size, kind) if word else sheet.number(size, kind)
-                rows.append((of, what, text + word))
+            rows += wheels(of, mover.tyres, f"{name}.tyres")
         if mover.drag is None and mover.tyres is None:
             rows.append((of, "slowed by", "nothing"))
+    for number, contact in enumerate(run.scene.contacts):
+        when = f", after {plain(contact_in_words(run.scene, number))}"
+        for name, tyres in contact.tyres_after.items():
+            rows += wheels(plain(name), tyres, f"contacts[{number}].tyres_after.{name}", when)
     for number, (corners, friction) in enumerate(run.scene.surfaces):
         places = "; ".join(
             f"({', '.join(sheet.number(float(part), 'length') for part in corner)})"
@@ -296,6 +307,9 @@ def vehicles(sheet: Sheet, run: Run, marks: Mapping[str, str] | None = None) -> 
     slopes = [float(part) for part in run.scene.slope]
     if any(slopes):
         rows.append(("ground", "slope along x, y", ", ".join(f"{part:.4g}" for part in slopes)))
+    for name, paths in run.scene.shared.items():
+        listed = "; ".join(plain(input_in_words(run.scene, path)) for path in paths)
+        rows.append((plain(name), "one and the same number", listed))
     sheet.heading("Vehicles and ground")
     sheet.table(rows)
 

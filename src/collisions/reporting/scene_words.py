@@ -55,7 +55,7 @@ def input_in_words(scene: Scene, path: str) -> str:
     if found := _AREA.fullmatch(path):
         return f"friction of surface {int(found[1]) + 1}"
     if found := _CONTACT.fullmatch(path):
-        where = _contact(scene, int(found[1]))
+        where = contact_in_words(scene, int(found[1]))
         if found[2]:
             return f"{_of(found[2], OF_WHEELS[found[3]][0])}, after {where}"
         what = _OF_CONTACT.get(found[3]) or RULES[found[3]].meaning
@@ -117,7 +117,7 @@ def _asked(run: Run, asked: OfImpact) -> str:
 
 
 def _first(run: Run, number: int) -> str:
-    return f"the first impact in {_contact(run.scene, number)}"
+    return f"the first impact in {contact_in_words(run.scene, number)}"
 
 
 def _moment(run: Run, path: str) -> str:
@@ -151,7 +151,7 @@ def _plain(inner: str) -> str:
     return inner.replace("_", " ").replace(".", " ")
 
 
-def _contact(scene: Scene, number: int) -> str:
+def contact_in_words(scene: Scene, number: int) -> str:
     """A contact by its vehicles, and by its time where it is not the only one of the two."""
     contact = scene.contacts[number]
     pair = {contact.a, contact.b}

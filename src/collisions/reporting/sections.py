@@ -180,6 +180,8 @@ def inputs(
                 rows.append((name, what, _with(text, notes.get(f"{of.lower()}.{what}"))))
     if impact.law is not None and impact.model not in ("linear_central", "time_resolved"):
         rows.append(("contact", "law of restitution", _with(impact.law.title(), notes.get("law"))))
+    if impact.inputs.incomplete:
+        rows.append(("contact", "restitution below 0 (incomplete impact)", "allowed"))
     rows += _known(sheet, impact, notes, spread)
     rows += _damage(sheet, options)
     sheet.table(rows)

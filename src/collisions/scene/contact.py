@@ -62,7 +62,8 @@ class Contact(Shown):
         from the start.
     point : pair [m], optional
         Scene point at which the impulse acts, with ``normal``. From the outlines if not given. It
-        lies in an outline, or no more than 0.5 m outside of the nearer one.
+        lies in an outline, or no more than 0.5 m outside of the nearer one. The central models have
+        none.
     at : float, str, Quantity or array [s], or "touch"
         When: a time, 0 where the states are given, at which outlines have to touch, or be within
         0.5 m of each other where normal and point are given; or whenever the outlines meet and
@@ -92,7 +93,7 @@ class Contact(Shown):
         Exactly one of these, as for ``eccentric``; none with "linear_central", and ``friction``
         with "time_resolved".
     law : {"brach", "kudlich-slibar", "stronge"}, optional
-        As for ``eccentric``; "time_resolved" has a law of its own.
+        As for ``eccentric``; "time_resolved" has a law of its own, and "linear_central" none.
     incomplete : bool, optional
         As for ``eccentric``.
     tyres_after : dict of travel.Tyres, optional
@@ -363,10 +364,14 @@ def _check(reader: ArgumentReader, found: Mapping[str, Any], rules: Mapping[str,
     if model == "linear_central":
         for name in given:
             refuse(f"model 'linear_central' has no {name}; leave it out, or use another", name)
+        if found["law"] != BRACH:
+            refuse("model 'linear_central' has no law; leave law out, or use another", "law")
     elif len(given) != 1:
         text = one_rule(rules, given)
         reader.refuse(InputError(text, code="one_tangential", argument=FRICTION))
-    if found["point"] is not None and found["normal"] is None:
+    if found["point"] is not None and model in _NO_POINT:
+        refuse(f"model {model!r} has no point; leave point out, or use eccentric", "point")
+    elif found["point"] is not None and found["normal"] is None:
         text = (
             "point is given without normal; give both, or neither where they come from the outlines"
         )
