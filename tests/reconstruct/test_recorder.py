@@ -679,6 +679,52 @@ def test_samples_before_the_pulse_begins_are_no_part_of_its_duration():
     assert flat.duration == 0.0
 
 
+@pytest.mark.parametrize(
+    ("early", "late"),
+    [
+        ({-0.02: 1.0}, {}),
+        ({-0.04: 0.0, -0.02: -1.0}, {}),
+        ({-0.02: 0.0}, {0.0: 1.0}),
+        ({-0.06: 0.02, -0.04: -0.03, -0.02: 0.01}, {0.0: -0.02}),
+        ({-0.02: -0.6}, {0.0: -0.6}),
+    ],
+)
+def test_a_step_of_the_recorder_before_time_0_is_no_part_of_the_duration(early, late):
+    """The change of the event begins at time 0, where no more than a step stands before it: as for
+    the same table from time 0 on, 80 ms to its largest delta-V, which is none of those before.
+    """
+    event = {0.0: 0.0, 0.02: -2.0, 0.04: -8.0, 0.06: -14.0, 0.08: -16.0, 0.1: -16.0}
+    aside = {0.02: 0.5, 0.04: 2.0, 0.06: 3.0, 0.08: 3.0, 0.1: 3.0}
+    for share in (1.0, 0.05):
+        whole = early | {at: share * value for at, value in event.items()} | late
+        if share < 1.0 and late:
+            continue
+        time, forward = np.array([*whole]), KMH * np.array([*whole.values()])
+        left = KMH * share * np.array([aside.get(at, 0.0) for at in whole])
+        for parts in ((forward,), (0.0 * forward, forward), (forward, left)):
+            pulse = recorded_pulse(time, *parts, polarity="ISO 8855")
+            assert pulse.duration == pytest.approx(0.08, rel=1e-12)
+            assert pulse.delta_v == pytest.approx(share * math.hypot(16, 3 * (parts[-1] is left))
+                                                  * KMH, rel=1e-12)  # fmt: skip
+            readings = [one for one in pulse.evidence if one is not None]
+            assert -share * 16 * KMH in [pytest.approx(one.mean, rel=1e-12) for one in readings]
+
+
+def test_a_record_that_counts_from_elsewhere_begins_where_it_was_last_none():
+    """More than a step stands before time 0 and there: what came and went before is no part."""
+    shape = -10.0 * haversine(TIME)
+    time = np.concatenate([[-0.09, -0.08, -0.07, -0.06], TIME - 0.05])
+    forward = np.concatenate([[0.0, 0.5 * KMH, 0.0, 0.0], shape])
+    pulse = recorded_pulse(time, forward, polarity="ISO 8855")
+    assert pulse.duration == pytest.approx(0.11, rel=1e-9)
+    # Of another event there is more before, and none left.
+    forward[1] = -6.0 * KMH
+    forward[4:] = 10.0 * KMH * np.clip(TIME - 0.05, 0.0, None)
+    with pytest.raises(col.InputError, match=r"forward is -6 km/h at -0\.08 s") as caught:
+        recorded_pulse(time, forward, polarity="ISO 8855")
+    assert caught.value.code == "bad_pulse"
+
+
 def test_the_bound_of_a_record_that_stops_early_is_told_in_km_per_hour():
     """10 m/s are 36 km/h; the time is that of the last sample."""
     time = np.arange(0.0, 0.0601, 0.01)

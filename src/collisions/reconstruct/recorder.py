@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
@@ -37,6 +37,8 @@ _LEFTWARD = {"49 CFR 563": -1.0, "ISO 8855": 1.0}
 # 49 CFR 563.5: the event has ended when the resultant changes by no more than 0.8 km/h within 20
 # ms.
 _QUIET_CHANGE, _QUIET_TIME = 0.8 / 3.6, 0.020
+# A reading may be off by a step of the recorder.
+_STEP = RECORDER_RESOLUTION.high * (1.0 + 1e-9)
 _LONGEST = 3.0  # s; no contact of vehicles lasts longer
 _NAMES = {"time": "s", "delta_v_forward": "m/s", "delta_v_left": "m/s"}
 
@@ -51,7 +53,8 @@ class RecordedPulse(Shown):
     which it is reported. A record that stops before the pulse has ended is a lower bound: its
     components say how far delta-V had come. ``duration`` is the time from the last sample before
     delta-V begins to change, or from time 0 where the first sample is one step later and has some
-    already, to the largest resultant. ``time``, ``forward`` and ``left`` are the samples.
+    already, to the largest resultant. Up to time 0 a delta-V within the step of a recorder is not
+    taken as change. ``time``, ``forward`` and ``left`` are the samples.
     ``place`` is where the recorder sits, ahead of the centre of mass and to its left, if that was
     given; all numbers are the readings there, which ``speeds(..., recorder_a=pulse.place)``
     carries over to the centre of mass.
@@ -104,7 +107,7 @@ class RecordedPulse(Shown):
         not grow: that is within its error of 0, so that it does not say to which side it went on,
         or that was greater before, or is less in a later sample.
         """
-        at = int(np.argmax(_resultant(self.forward, self.left)))
+        at = _largest(self.time, self.forward, self.left)
         forward, left = (
             None if part is None else _evidence(part, at, self.ended)
             for part in (self.forward, self.left)
@@ -232,8 +235,8 @@ def recorded_pulse(
     ------
     InputError
         An argument or a file that cannot be used, or delta-V that is not 0 when the event begins:
-        a first sample at time 0 or before it may be off by the step of a recorder, 1 km/h. Where
-        the first is later and has some delta-V, more than one step after time 0.
+        samples up to time 0 may be off by the step of a recorder, 1 km/h, where they do not lead on
+        to more. Where the first is later and has some delta-V, more than one step after time 0.
 
     Warns
     -----
@@ -325,16 +328,17 @@ def recorded_pulse(
     if times[0] <= 0.0:
         for name, part in parts.items():
             _need_start_at_zero(name, part, times[0])
+        _need_none_before(times, parts)
     for name, part in parts.items():
         _warn_if_beyond(name, part, name in given and not has_unit(given[name]))
-    at = int(np.argmax(size))
+    at, begin = _largest(times, ahead, aside), _begin(times, parts)
     ended = _ended(times, size, at)
     if not ended:
         warn(OutOfRangeWarning(_cut(times, size[at]), code="pulse_cut"))
     found = RecordedPulse(
         delta_v_forward=float(ahead[at]),
         delta_v_left=None if aside is None else float(aside[at]),
-        duration=float(times[at] - _begin(times, parts)),
+        duration=float(times[at] - begin),
         ended=ended,
         polarity=polarity,
         time=read_only(times),
@@ -368,7 +372,7 @@ def _read_place(reader: ArgumentReader, forward: Any, left: Any) -> tuple[float,
 
 def _need_start_at_zero(name: str, part: Any, time: float) -> None:
     """Refuse cumulative delta-V that is not 0 when the event begins, to a step of a recorder."""
-    if abs(part[0]) <= RECORDER_RESOLUTION.high * (1.0 + 1e-9):
+    if abs(part[0]) <= _STEP:
         return
     at = "time 0" if time == 0.0 else f"{time:.3g} s, before time 0"
     raise InputError(
@@ -378,6 +382,27 @@ def _need_start_at_zero(name: str, part: Any, time: float) -> None:
         code="bad_pulse",
         argument=name,
     )
+
+
+def _need_none_before(times: Any, parts: Mapping[str, Any]) -> None:
+    """Refuse delta-V before time 0 of which there is none left at time 0, to a step of a
+    recorder.
+    """
+    early = int(np.count_nonzero(times <= 0.0))
+    sizes = {name: abs(part[:early]) for name, part in parts.items()}
+    if any(size[-1] > _STEP for size in sizes.values()):
+        return
+    for name, size in sizes.items():
+        if size.max() > _STEP:
+            at = int(np.argmax(size))
+            raise InputError(
+                f"{name} is {3.6 * parts[name][at]:.3g} km/h at {times[at]:.3g} s, before time 0, "
+                f"and {3.6 * parts[name][early - 1]:.3g} km/h at {times[early - 1]:.3g} s, and "
+                "delta-V counts from 0 when the event begins; leave out the samples of another "
+                "event, or of what the recorder counted before this one",
+                code="bad_pulse",
+                argument=name,
+            )
 
 
 def _warn_if_beyond(name: str, part: Any, bare: bool) -> None:
@@ -429,15 +454,38 @@ def _cut(times: Any, size: float) -> str:
     )
 
 
-def _begin(times: Any, parts: Mapping[str, Any]) -> float:
-    """When delta-V begins to change: the last sample before it does, the first where it never does;
-    or time 0, from which it counts, where the first sample is later and has some.
+def _largest(times: Any, forward: Any, left: Any) -> int:
+    """The sample with the largest resultant, from that on before which delta-V begins to change."""
+    begin = _last_still(times, [forward] if left is None else [forward, left])
+    return begin + int(np.argmax(_resultant(forward, left)[begin:]))
+
+
+def _last_still(times: Any, parts: Sequence[Any]) -> int:
+    """The last sample before delta-V begins to change, the first where it never does.
+
+    Up to time 0 what is within a step of a recorder is no change. Where there is more by then, the
+    record counts from elsewhere, and delta-V begins where it was last none, or what it was at
+    first.
     """
-    changed = np.any([part != part[0] for part in parts.values()], axis=0)
-    last = max(int(np.argmax(changed)) - 1, 0)
+    early = int(np.count_nonzero(times <= 0.0))
+    small = np.all([abs(part) <= _STEP for part in parts], axis=0)
+    still = max(early - 1, 0)
+    if not small[:early].all():
+        few = small[: max(int(np.argmin(small)), 1)]
+        none = [(part[: len(few)] == 0.0) | (part[: len(few)] == part[0]) for part in parts]
+        still = int(np.flatnonzero(np.all(none, axis=0))[-1])
+    changed = np.any([part[still:] != part[still] for part in parts], axis=0)
+    return still + max(int(np.argmax(changed)) - 1, 0)
+
+
+def _begin(times: Any, parts: Mapping[str, Any]) -> float:
+    """When delta-V begins to change, or time 0, from which it counts, where the first sample is
+    later and has some.
+    """
+    last = _last_still(times, [*parts.values()])
     first = max(abs(part[0]) for part in parts.values())
     # An offset of a recorder stays as it is for some samples.
-    offset = last > 0 and first <= RECORDER_RESOLUTION.high * (1.0 + 1e-9)
+    offset = last > 0 and first <= _STEP
     if times[0] <= 0.0 or first == 0.0 or offset:
         return float(times[last])
     if times[0] > (times[1] - times[0]) * (1.0 + 1e-9):
