@@ -263,6 +263,13 @@ def test_the_page():
         ({"speed_a": (np.array([1.0]), 20.0)}, "bad_range", "pair of finite numbers"),
         ({"normal": (pint.Quantity(np.array([1.0, 1e307]), "rad"), "20 deg")}, "bad_range",
             "pair of finite numbers"),
+        # As of a Uniform.
+        ({"speed_a": ("30 km/h", 80)}, "bad_units",
+            "speed_a high = 80 has no unit, but speed_a low = '30 km/h' has one; give each with "
+            "its unit, or each as a number in SI"),
+        ({"speed_a": (8.0, pint.Quantity(80, "km/h"))}, "bad_units", "speed_a low = 8.0 has no"),
+        ({"normal": ("-10 deg", 0.3)}, "bad_units", "normal high = 0.3 has no unit"),
+        ({"speed_a": ["30 km/h", "80"]}, "bad_units", "speed_a high = '80' has no unit"),
     ],
 )  # fmt: skip
 def test_ranges_that_are_refused(ranges, code, text):
@@ -283,12 +290,31 @@ def test_ranges_that_are_refused(ranges, code, text):
         ({"a.delta_v": (5.0, 6.0, 7.0)}, "bad_range", "a number or a pair"),
         ({"a.pdof": np.array([1.0, 2.0])}, "bad_range", "a number or a pair"),
         ({"energy_loss": math.nan}, "not_finite", "energy_loss"),
+        (
+            {"a.delta_v": ("20 km/h", 24)},
+            "bad_units",
+            "observed['a.delta_v'] high = 24 has no unit, but observed['a.delta_v'] low = "
+            "'20 km/h' has one",
+        ),
+        ({"a.pdof": (-0.2, "5 deg")}, "bad_units", "observed['a.pdof'] low = -0.2 has no unit"),
     ],
 )
 def test_evidence_that_is_refused(observed, code, text):
     with pytest.raises(col.InputError, match=re.escape(text)) as caught:
         what_if(IMPACT, RANGES, observed=observed)
     assert caught.value.code == code
+
+
+def test_an_end_of_0_needs_no_unit():
+    """It is the same in every one."""
+    page = what_if(
+        IMPACT,
+        {"speed_a": (0, "80 km/h"), "normal": ("-20 deg", 0.0)},
+        observed={"a.pdof": (0, "9 deg")},
+    )
+    assert re.findall(r'id="(\w+)" min="(-?0.0|-20.0)"', page) == [
+        ("speed_a", "0.0"), ("normal", "-20.0")
+    ]  # fmt: skip
 
 
 def test_evidence_stands_beside_what_follows():
@@ -444,6 +470,20 @@ def test_from_a_case_file(tmp_path):
         text.replace(" +/- 5 km/h", "").replace('"0.1 .. 0.3"', "0.1"), encoding="utf-8"
     )
     assert main([str(file), "--what-if", str(page)]) == 2
+
+
+def test_a_range_of_a_case_file_has_a_unit_at_both_ends(tmp_path, capsys):
+    file, page = tmp_path / "case.toml", tmp_path / "page.html"
+    text = (
+        '[a]\nmass = 1500\nvx = "50 km/h"\n[b]\nmass = 1200\n[linear_central]\nrestitution = 0.1\n'
+        '[what_if.ranges]\nspeed_a = ["30 km/h", 80]\n'
+    )
+    file.write_text(text, encoding="utf-8")
+    assert main([str(file), "--what-if", str(page)]) == 2
+    assert not page.exists()
+    said = capsys.readouterr().err
+    assert "what_if.ranges.speed_a: " in said
+    assert "high = 80 has no unit, but speed_a low = '30 km/h' has one" in said
 
 
 def test_outlines_are_drawn_as_given(tmp_path):

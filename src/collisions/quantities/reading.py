@@ -196,6 +196,27 @@ def is_whole(value: Any) -> bool:
     return isinstance(value, (int, np.integer)) and not isinstance(value, (bool, np.timedelta64))
 
 
+def mixed_units(given: Mapping[str, Any], argument: str = "") -> UnitsError | None:
+    """The error for numbers of one kind, by name, of which some have a unit and others none; 0 is
+    the same in every unit.
+    """
+    measured = [name for name, value in given.items() if has_unit(value)]
+    zeros = [
+        name
+        for name, value in given.items()
+        if (isinstance(value, float) or is_whole(value)) and value == 0
+    ]
+    bare = [name for name in given if name not in measured and name not in zeros]
+    if not (measured and bare):
+        return None
+    return UnitsError(
+        f"{bare[0]} = {shown(given[bare[0]])} has no unit, but {measured[0]} = "
+        f"{shown(given[measured[0]])} has one; give each with its unit, or each as a number in SI",
+        code="bad_units",
+        argument=argument or bare[0],
+    )
+
+
 def broadcast(values: Mapping[str, Any]) -> tuple[int, ...] | None:
     """The common shape of the arrays among these values; None without any. ShapeError names them
     all.

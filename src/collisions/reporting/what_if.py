@@ -28,7 +28,7 @@ from ..quantities.directions import angle_of, direction, from_degrees
 from ..quantities.document import Document
 from ..quantities.formatting import SI_UNITS, UnitSystem, decimals_of, in_words, typeset
 from ..quantities.printed_tables import html_row
-from ..quantities.reading import OUTSIDE_UNITS, ArgumentReader, need_one_case
+from ..quantities.reading import OUTSIDE_UNITS, ArgumentReader, mixed_units, need_one_case
 from ..quantities.tables import Cells, cells, given_texts, said
 from ..quantities.units import Input, Texts, has_unit, shown
 from ..vehicle.outlines import read_outline
@@ -143,8 +143,8 @@ def what_if(
     impact : Impact
         A single answered case of any solver; the sliders start at its values.
     ranges : dict
-        Ends (low, high) of each slider by the name of the input, with units as elsewhere, on either
-        side of the value in the impact. For a vehicle, however it was given: ``speed_a``,
+        Ends (low, high) of each slider by the name of the input, both with a unit or both in SI, on
+        either side of the value in the impact. For a vehicle, however it was given: ``speed_a``,
         ``course_a``, or ``vx_a``, ``vy_a``; ``mass_a``, ``yaw_rate_a``, ``yaw_inertia_a``, ``x_a``,
         ``y_a``, ``heading_a``, and the same with ``_b``. For the contact: ``restitution``,
         ``normal``, ``point_x``, ``point_y``, and whichever of ``friction``, ``impulse_ratio`` and
@@ -154,9 +154,9 @@ def what_if(
         1.8 m, and the page says so.
     observed : dict, optional
         Evidence to be compared with the result of the same name: a number, or the ends (low, high)
-        of its range, outside which the page marks the result. Names are ``a.delta_v``, ``a.pdof``,
-        ``a.delta_yaw_rate``, ``a.before.speed``, ``a.after.speed``, the same of ``b``,
-        ``closing_speed`` and ``energy_loss``.
+        of its range, both with a unit or both in SI, outside which the page marks the result. Names
+        are ``a.delta_v``, ``a.pdof``, ``a.delta_yaw_rate``, ``a.before.speed``, ``a.after.speed``,
+        the same of ``b``, ``closing_speed`` and ``energy_loss``.
     units : {"si", "metric", "us"}, optional
         Units of the page; by default those that the inputs were given in, where they agree, else
         SI.
@@ -171,6 +171,8 @@ def what_if(
     InputError
         A name that the model of this impact does not use, ends in the wrong order, a value of the
         impact outside them, or evidence of something that the page does not show.
+    UnitsError
+        One end of a range with a unit and one without, or a unit of another kind.
     ShapeError
         A batch: take one case of it.
 
@@ -323,6 +325,7 @@ def _sliders(impact: Impact, ranges: Any) -> list[Slider]:
             )
             continue
         count = len(reader.problems)
+        _refuse_mixed(reader, name, ends)
         numbers = (
             [_end(reader, name, end, impact) for end in ends]
             if isinstance(ends, (tuple, list))
@@ -395,6 +398,7 @@ def _evidence(impact: Impact, observed: Any) -> list[Evidence]:
         ends = given if isinstance(given, (tuple, list)) else (given, given)
         name = f"observed[{path!r}]"
         count = len(reader.problems)
+        _refuse_mixed(reader, name, ends)
         numbers = [_observed(reader, kind, end, name) for end in ends]
         if len(reader.problems) > count:
             continue
@@ -419,6 +423,14 @@ def _evidence(impact: Impact, observed: Any) -> list[Evidence]:
         if isinstance(value, float) and math.isfinite(value) and path not in (observed or {}):
             found.append(Evidence(what, kind, path, value, value))
     return found
+
+
+def _refuse_mixed(reader: ArgumentReader, name: str, ends: Any) -> None:
+    """Refuse a range of which one end has a unit and the other none."""
+    if isinstance(ends, (tuple, list)) and len(ends) == 2:
+        by_name = {f"{name} {end}": value for end, value in zip(("low", "high"), ends, strict=True)}
+        if (mixed := mixed_units(by_name, name)) is not None:
+            reader.refuse(mixed)
 
 
 def _observed(reader: ArgumentReader, kind: str, given: Any, name: str) -> Any:

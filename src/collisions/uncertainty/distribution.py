@@ -17,7 +17,7 @@ from ..messages.marked import as_code
 from ..messages.warning import AGREES, Note
 from ..quantities.attributes import equal
 from ..quantities.formatting import SI_UNITS, Numbers, typeset
-from ..quantities.reading import ArgumentReader, is_whole
+from ..quantities.reading import ArgumentReader, mixed_units
 from ..quantities.refusals import must_be
 from ..quantities.settings import units_required
 from ..quantities.units import (
@@ -379,21 +379,8 @@ def read_alike(
         unit = GivenUnit.of(given[measured[0]], measured[0])
     elif texts:
         unit = WithoutUnit.of(texts[0])
-    # 0 is the same in every unit.
-    zeros = [
-        name
-        for name, value in given.items()
-        if (isinstance(value, float) or is_whole(value)) and value == 0
-    ]
-    bare = [name for name in given if name not in measured and name not in zeros]
-    if measured and bare:
-        raise UnitsError(
-            f"{bare[0]} = {shown(given[bare[0]])} has no unit, but {measured[0]} = "
-            f"{shown(given[measured[0]])} has one; give each with its unit, or each as a number "
-            "in SI",
-            code="bad_units",
-            argument=bare[0],
-        )
+    if (mixed := mixed_units(given)) is not None:
+        raise mixed
     reader = ArgumentReader()
     numbers = {
         name: reader.number(value, unit, name, UNCHECKED if name in optional else FINITE)
