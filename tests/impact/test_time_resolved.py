@@ -1063,7 +1063,8 @@ def test_the_largest_acceleration_does_not_depend_on_the_step(geometry):
     """Friction without bound stops the slip at once, which a step would make an acceleration of:
     what is left is near that of the largest force, as of a contact with much friction.
     """
-    for friction, apart in ((0.4, 2e-3), (1.0, 2e-3), (math.inf, 2e-3)):
+    # The force of friction jumps where the slip stops within a step.
+    for friction, apart in ((0.4, 5e-3), (1.0, 1e-4), (math.inf, 1e-4)):
         peaks = []
         for steps in (100, 400):
             impact = t_bone(friction=friction, drag=0.0, geometry=geometry, steps=steps)
