@@ -489,9 +489,9 @@ def advance(
     px, py = place.nx * normal - place.ny * along, place.ny * normal + place.nx * along
     took = part * step
     per_time = _rate(took)
-    # What friction without bound stops the slip by takes no time, and is no acceleration.
-    at_once = (contact.friction >= MOST_FRICTION) & (passing.sticks ^ True)
-    stops = select(at_once & (k.tt > 0.0), slip / select(k.tt > 0.0, k.tt, 1.0), 0.0)
+    # Friction without bound stops at once the slip with which a step begins: no acceleration.
+    at_once = (contact.friction >= MOST_FRICTION) & (k.tt > 0.0)
+    stops = select(at_once, slip, 0.0) / select(at_once, k.tt, 1.0)
     fx, fy = px - place.ny * stops, py + place.nx * stops
     on_a = _pushed(a, on_a, -px, -py, (place.ax, place.ay), (-fx, -fy), per_time, pulls[0])
     on_b = _pushed(b, on_b, px, py, (place.bx, place.by), (fx, fy), per_time, pulls[1])
