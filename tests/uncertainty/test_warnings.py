@@ -656,6 +656,38 @@ def test_what_only_some_samples_of_a_posterior_have_is_said(kept):
         assert said in place
 
 
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+def test_what_a_result_warns_of_is_told_from_what_the_model_warns_of():
+    """The same of the same samples, and, with a distribution drawn beside them, of others."""
+
+    def slower(speed, than=20.0):
+        where = speed < than
+        warn_of_cases(col.CollisionsWarning("slow", code="slow"), {"slower than asked": where})
+        return speed
+
+    found = reconstruct.posterior(
+        lambda speed: {"read": slower(speed)}, {"speed": Normal(18.0, 4.0)}, {"read": (20.0, 1.0)},
+        samples=512, seed=1
+    )  # fmt: skip
+    more = found.with_result("way", slower, speed=found["speed"])
+    more = more.with_result("other", slower, speed=found["speed"], than=Normal(20.0, 5.0))
+    below = int(np.count_nonzero(found["speed"].values < 20.0))
+    (own,) = (one for one in found.statements if "slower" in one)
+    assert own.startswith(f"{below} of 512 cases")
+    told = [one for one in more.statements if "slower" in one]
+    assert told[:2] == [own, f"way: {own}"]
+    assert told[2].startswith("other: ")
+    assert len(set(more.statements)) == len(more.statements)
+    # What was stated of a distribution that was found stands once too, wherever it goes in.
+    known = more.inputs()["speed"]
+    again = reconstruct.posterior(
+        lambda speed: {"read": speed}, {"speed": known}, {"read": (20.0, 1.0)}, samples=512, seed=1
+    )
+    summed = again.with_result("sum", lambda speed, v: speed + v, speed=known, v=again["speed"])
+    assert any("slower" in one for one in again.statements)
+    assert len(set(summed.statements)) == len(summed.statements)
+
+
 TYRES = {f"tyres_{label}": Tyres(0.7, 0.0, 2.7, 1.5) for label in "ab"} | {"duration": 0.1}
 CONTACT = {"normal": 0.0, "point": (0.0, 0.0), "friction": math.inf, "on_failure": "nan"}
 

@@ -301,8 +301,13 @@ class Posterior(SpeedsFound, Summarized):
                 note._replace(warning=None) if note.code == "refused_cases" else note
                 for note in notes
             )
+        # The model may warn of the same: each statement says what it is of.
+        notes = tuple(note._replace(sentence=f"{name}: {note.sentence}") for note in notes)
         notes += *unanswered_notes({name: output}), *wrap_notes(wraps_of({name: output}))
-        notes += tuple(notes_of_inputs(arguments.items()))
+        known = {note.sentence for note in notes_of(self)}
+        notes += tuple(
+            note for note in notes_of_inputs(arguments.items()) if note.sentence not in known
+        )
         warn_of(notes)
         return replace(
             self,
