@@ -603,7 +603,48 @@ def test_ranges_of_a_finer_model_that_bends_cost_few_calls_of_it():
     for name in found.profiles:
         low, high = alone[name].interval(0.95)
         assert found[name].interval(0.95) == pytest.approx((low, high), abs=0.005 * (high - low))
-    assert found.calls["finer"] < 0.1 * found.calls["model"]
+    # A third of it for the searches all over the bounds.
+    assert found.calls["finer"] < 0.2 * alone.calls["model"]
+
+
+@pytest.mark.parametrize("known", [(0.5, 0.15), (0.55, 0.15), (0.45, 0.1), (0.6, 0.2)])
+def test_a_contact_that_only_the_finer_model_lets_slide_is_found(known):
+    """Of the cheap model it stuck, at one speed of B; where it slid, the friction has its say, and
+    any speed above fits about as well.
+    """
+
+    def solved(friction):
+        def model(speed_a, speed_b, ratio):
+            a = col.Vehicle(mass=1500, yaw_inertia=2500, x=-2.0, y=0.3, heading=0.0, vx=speed_a)
+            b = col.Vehicle(mass=1200, yaw_inertia=1900, x=0.9, y=-0.5, heading=1.5, vy=speed_b)
+            impact = col.eccentric(
+                a,
+                b,
+                0.1,
+                normal=0.0,
+                point=(0.0, 0.0),
+                friction=friction(ratio),
+                on_failure="nan",
+            )
+            return {"delta_v": impact.a.delta_v, "aside": impact.a.after.vy}
+
+        return model
+
+    stuck, may_slide = solved(lambda ratio: 1e3), solved(lambda ratio: ratio)
+    truth = stuck(12.0, 9.0, 0.5)
+    observed = {name: (value, 0.1) for name, value in truth.items()}
+    unknowns = {
+        "speed_a": Interval(3.0, 25.0),
+        "speed_b": Interval(0.0, 25.0),
+        "ratio": Normal(*known),
+    }
+    alone = fit(may_slide, unknowns, observed)
+    found = fit(stuck, unknowns, observed, finer=may_slide)
+    assert alone["speed_b"].interval(0.95)[1] == 25.0
+    for name in unknowns:
+        low, high = alone[name].interval(0.95)
+        assert found[name].interval(0.95) == pytest.approx((low, high), abs=0.02 * (high - low))
+    assert len(found.others) == 1
 
 
 def test_two_answers_of_the_finer_model_are_refused_with_the_call_to_write():
