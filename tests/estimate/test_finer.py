@@ -230,6 +230,20 @@ def test_a_reading_finer_than_the_difference_of_the_models(error):
     assert "contradictory" not in codes
 
 
+def test_numbers_at_the_edge_of_the_floats_have_an_answer():
+    """Their spread overflows, and nothing can be learnt from it."""
+    priors = {"x": Uniform(2.6, 8.7), "y": Normal(1.7e308, 1e307, truncate=(-6e306, None))}
+    found, _ = sampled(
+        lambda x, y: {"d": np.hypot(x, y)},
+        priors,
+        {"d": Censored(low=7.0, error=0.5)},
+        finer=lambda x, y: {"d": np.hypot(x, y) * (1.0 - 0.01 * (x > 5.0))},
+        samples=512,
+    )
+    assert 2.6 < found["x"].mean < 8.7
+    assert np.all(np.isfinite(found["d"].values))
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", [1, 2, 3])
 @pytest.mark.parametrize("sharp", [True, False])

@@ -357,12 +357,15 @@ class Correction:
             self.low, self.high = 2.0 * low - high, 2.0 * high - low
             self.middle, self.spread = np.mean(computed, axis=0), np.std(computed, axis=0)
             self.spread = np.where(self.spread > 0.0, self.spread, 1.0)
-        self.by, *_ = np.linalg.lstsq(self._terms(points, computed), apart, rcond=_FLAT)
+        terms = self._terms(points, computed)
+        # Numbers at the edge of the floats have no spread.
+        usable = np.all(np.isfinite(terms), axis=1) & np.all(np.isfinite(apart), axis=1)
+        self.by, *_ = np.linalg.lstsq(terms[usable], apart[usable], rcond=_FLAT)
 
     def of(self, points: Any, computed: Any) -> Any:
         """What the finer model will compute, as far as is known."""
         more = np.einsum("ij,jk->ik", self._terms(points, computed), self.by)
-        return computed + np.clip(more, self.low, self.high)
+        return computed + np.where(np.isfinite(more), np.clip(more, self.low, self.high), 0.0)
 
     def _terms(self, points: Any, computed: Any) -> Any:
         """Powers and products up to the second of scores, as many as the values determine, and what
