@@ -6,6 +6,7 @@ import json
 import math
 import warnings
 from concurrent.futures import ThreadPoolExecutor
+from threading import Event
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -13,6 +14,7 @@ import pytest
 
 import collisions as col
 from collisions import plot, reconstruct, reference
+from collisions.messages import warning
 from collisions.messages.warning import warn, warn_of_cases
 from collisions.travel import Tyres
 from collisions.uncertainty import Interval, Normal, Uniform, propagate
@@ -343,8 +345,7 @@ def test_a_model_of_both_kinds_says_what_is_sure():
     )
 
 
-@pytest.mark.parametrize("made", ["each time", "before"])
-def test_a_model_with_threads_of_its_own_is_given_no_share(made):
+def test_a_model_that_starts_threads_is_given_no_share():
     """What solvers warn of there, and why cases have no answer, is stated with how often it was
     said, and given there too, as the thread may as well be another's.
     """
@@ -363,17 +364,12 @@ def test_a_model_with_threads_of_its_own_is_given_no_share(made):
         )
         return impact.a.delta_v
 
-    with ThreadPoolExecutor(2) as whole:
+    def model(speed):
+        with ThreadPoolExecutor(2) as own:
+            return {"delta_v": np.concatenate(list(own.map(solved, np.array_split(speed, 2))))}
 
-        def model(speed):
-            parts = np.array_split(speed, 2)
-            if made == "before":
-                return {"delta_v": np.concatenate(list(whole.map(solved, parts)))}
-            with ThreadPoolExecutor(2) as own:
-                return {"delta_v": np.concatenate(list(own.map(solved, parts)))}
-
-        inputs = {"speed": Normal(6.0, 3.0)}
-        found, caught = quiet(lambda: propagate(model, inputs, samples=256, seed=1))
+    inputs = {"speed": Normal(6.0, 3.0)}
+    found, caught = quiet(lambda: propagate(model, inputs, samples=256, seed=1))
     plain, _ = quiet(
         lambda: propagate(lambda speed: {"delta_v": solved(speed)}, inputs, samples=256, seed=1)
     )
@@ -384,9 +380,48 @@ def test_a_model_with_threads_of_its_own_is_given_no_share(made):
     assert note.statement.startswith("2 warnings from calls that were not given all cases")
     assert "may_slide" in {one.message.code for one in caught}
     assert any("it slid" in text for text in found.statements)
-    # Afterwards none of it goes to another study.
-    again, _ = quiet(lambda: propagate(lambda x: {"y": x}, {"x": Normal(0, 1)}, seed=1))
-    assert not again.statements
+
+
+def test_other_threads_say_nothing_of_a_study_and_hear_nothing_of_it():
+    """One that was there before the model was called, and any once it has answered or failed."""
+    asked, answered = Event(), Event()
+    heard = []
+
+    def beside():
+        asked.wait(60.0)
+        impact = col.eccentric(
+            col.Vehicle(mass=1500, vx=15.0, yaw_inertia=2500, x=-2.0, y=0.0),
+            col.Vehicle(mass=1250, vy=12.0, yaw_inertia=1900, x=0.9, y=-0.4),
+            0.1,
+            normal=0.0,
+            point=(0.0, 0.2),
+            friction=math.inf,
+        )
+        warn_of_cases(col.CollisionsWarning("of another thread", code="other"), {"other": None})
+        heard.append(impact.a.delta_v)
+        answered.set()
+
+    def model(x):
+        asked.set()
+        assert answered.wait(60.0)
+        return {"y": x}
+
+    with ThreadPoolExecutor(1) as other:
+        inputs = {"x": Normal(0.0, 1.0)}
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            other.submit(beside)
+            found = propagate(model, inputs, samples=64, seed=1)
+    assert heard
+    assert not found.statements
+    assert {one.message.code for one in caught} == {"other"}
+
+    def failing(x):
+        raise RuntimeError
+
+    with pytest.raises(RuntimeError):
+        propagate(failing, inputs, samples=64, seed=1)
+    assert not warning._called
 
 
 def test_fits_and_posteriors_give_a_loop_no_share():

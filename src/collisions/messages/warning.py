@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 import sys
+import threading
 import warnings
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager
@@ -84,21 +85,33 @@ class Note(NamedTuple):
 _quiet: ContextVar[bool] = ContextVar("quiet", default=False)
 _sampling: ContextVar[list[Said] | None] = ContextVar("sampling", default=None)
 _answer: ContextVar[int | None] = ContextVar("answer", default=None)
-# What is noted of each model that is called now, in whatever thread. A thread that a model starts
-# has a context of its own, in which no study is known.
-_called: dict[int, list[Said]] = {}
+
+
+class _Called(NamedTuple):
+    """A model that is called now: what is noted of it, and the threads that were there before."""
+
+    said: list[Said]
+    before: frozenset[threading.Thread]
+
+
+# Of all threads. One that a model starts has a context of its own, in which no study is known.
+_called: dict[object, _Called] = {}
 
 
 def _studies() -> tuple[tuple[list[Said], bool], ...]:
     """Where what is said here is noted, and whether the cases are those of that call of a model.
 
-    In a thread of a model's own they are not known, nor, where several studies go on at once,
-    whose it is: it is noted of each.
+    In a thread that was started since, the cases are not known, nor, where several studies go on at
+    once, whose it is: it is noted of each.
     """
     said = _sampling.get()
     if said is not None:
         return ((said, True),)
-    return () if _quiet.get() else tuple((one, False) for one in tuple(_called.values()))
+    if not _called or _quiet.get():
+        return ()
+    thread = threading.current_thread()
+    called = tuple(_called.values())
+    return tuple((one.said, False) for one in called if thread not in one.before)
 
 
 def _note(
@@ -177,12 +190,13 @@ def quietly(said: list[Said] | None = None) -> Iterator[None]:
     cases are those of a study, and its warnings go there.
     """
     token, sampled = _quiet.set(True), _sampling.set(said)
+    call = object()
     if said is not None:
-        _called[id(said)] = said
+        _called[call] = _Called(said, frozenset(threading.enumerate()))
     try:
         yield
     finally:
-        _called.pop(id(said), None)
+        _called.pop(call, None)
         _quiet.reset(token)
         _sampling.reset(sampled)
 

@@ -129,6 +129,19 @@ def answers_of(
                 if scene.energy is not None:
                     raise _either_beside_an_energy(scene, known, say, ways.again)
                 raise _stuck_or_slid(scene, known, say, ways.again)
+            by_energy = not any(name in COMPONENTS for name in known)
+            if (
+                inputs.tyres
+                and status == Status.UNDETERMINED
+                and by_energy
+                and not inputs.rule_value
+            ):
+                raise error_of(
+                    status,
+                    f"without friction {' and '.join(known)} tell of the closing speed, and of the "
+                    "speeds with it only by what the tyres add, which may be the same for many; "
+                    "give one of the speeds",
+                )
             if inputs.tyres and status == Status.CONTRADICTORY:
                 raise error_of(
                     status,

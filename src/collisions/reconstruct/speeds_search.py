@@ -396,8 +396,8 @@ class Search:
             if np.any(ended)
         ]
         if not knows_speed:
-            # Without friction all knowns tell of the closing speed alone, and what tyres add to
-            # that may be the same over a range of speeds.
+            # Without friction knowns tell of the closing speed, and of the speeds with it only by
+            # what tyres add, which may be the same over a range of them.
             scene.undetermined = scene.undetermined | np.equal(attempt.inputs.rule_value, 0.0)
         return attempt._replace(found=in_order(scene, roots, self.forward_only, SETTLED))
 

@@ -115,7 +115,8 @@ def propagate(
         are directions, counted round the circle about their mean (see ``Output``); return a
         rotation as a plain number. Warnings of this library are counted by case where solvers are
         called with arrays of all cases; of calls with plain numbers, as in a loop, or in threads
-        of the model's own their number is stated, and those in processes of its own are not known.
+        that the model starts their number is stated, and those in other threads and processes are
+        not known.
         Other warnings that the model gives go where warnings go, and are counted nowhere.
         A ``scene.Scene`` is a model too: its inputs and ``outputs`` are named by their paths.
     inputs : dict
