@@ -702,6 +702,13 @@ def test_an_answer_where_the_model_bends_jumps_or_refuses_is_a_second_one(broken
     assert other["x"].value == pytest.approx(5.0, abs=1e-3)
     least = (above / 0.05) ** 2 if not second else above**2 / (0.05**2 + 0.01**2)
     assert other.chi_squared == pytest.approx(least, abs=2e-3)
+    # Its own range, from where the misfit is higher by 3.84 to the break or just beyond.
+    low, high = other["x"].interval(0.95)
+    if not second:
+        rise = 0.05 * math.sqrt(least + 1.95996**2)
+        assert low == pytest.approx(5.0 + above - rise, abs=2e-3)
+        slope = 1.0 / 3.0 if broken == "a kink" else 0.0
+        assert high == pytest.approx(5.0 + slope * (rise - above), abs=2e-3)
 
 
 @pytest.mark.parametrize("broken", BROKEN)

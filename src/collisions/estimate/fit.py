@@ -240,7 +240,7 @@ def fit(
                 )
             fits.append(replace(_answer(one), model_notes=notes))
         if len(fits) > 1 and _distinct(found_of):
-            raise _ambiguous(fits)
+            raise _ambiguous([_with_own(*one) for one in zip(fits, candidates, strict=True)])
         found = replace(fits[0], **_with_profiles(fits, found_of))
         calls = {"model": searched.cases}
         if dearer is not None:
@@ -729,6 +729,17 @@ def _with_profiles(fits: list[Fit], found: list[tuple[_Candidate, Found]]) -> di
         "others": tuple(fits[1:]),
         "refuses_nearby": any(one.refused for _, one in found),
     }
+
+
+def _with_own(fit: Fit, found: _Candidate) -> Fit:
+    """One of several answers with the profiles of itself alone, where slopes do not give its
+    ranges.
+    """
+    which = found.bent if found.converged else range(len(found.point))
+    covariance = found.determination.covariance
+    own = followed(found.problem, found.point, found.chi_squared, covariance, which)
+    profiles = {fit.names[j]: tuple(table([both])) for j, both in own.sides.items()}
+    return replace(fit, profiles=profiles, refuses_nearby=own.refused)
 
 
 def _check_minimum(best: _Candidate, ends: Ends, few: bool = True) -> None:
