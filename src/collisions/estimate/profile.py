@@ -381,6 +381,8 @@ def _follow(
     tracks = [[(value[k], rise[k], climbs[k])] for k in every]
     visited = [[at[k].copy()] for k in every]
     reached: list[Ends | None] = [None] * len(begins)
+    # Of each track the last value to which chi-squared rose by too much at once.
+    beyond: list[tuple[tuple[Any, Any, Any], Any] | None] = [None] * len(begins)
     held = np.arange(at.shape[1]) == unknowns[:, np.newaxis]
     edge, live, inward = np.zeros(len(begins), dtype=bool), value != bound, aim < _RISE
     for _ in range(_MOST_STEPS):
@@ -404,6 +406,8 @@ def _follow(
         edge[rows[refused & short]] = True
         live[rows[refused & short]] = False
         step[rows[~good]] *= np.where(refused[~good], 0.5, _RISE / climbed[~good]).clip(0.1, 0.6)
+        for j in np.flatnonzero(~good & ~refused).tolist():
+            beyond[rows[j]] = ((new[j], found[j], climbs[j]), ends.points[j])
         for j in np.flatnonzero(good).tolist():
             row, moved = rows[j], new[j] - value[rows[j]]
             tracks[row].append((new[j], found[j], climbs[j]))
@@ -418,6 +422,11 @@ def _follow(
                 live[row] &= went > 0.0 and found[j] < until[row].rise_at(new[j])
             if found[j] >= _REACHED and not inward[row] and reached[row] is None:
                 reached[row] = Ends(*(part[j : j + 1] for part in ends))
+    for k in every[live]:
+        # One that got no further before a jump ends there.
+        if (last := beyond[k]) is not None and outward[k] * (last[0][0] - value[k]) > 0.0:
+            tracks[k].append(last[0])
+            visited[k].append(last[1])
     return [
         _Track(np.array(tracks[k]).T, np.array(visited[k]), bool(edge[k]), reached[k])
         for k in every
