@@ -1405,3 +1405,25 @@ def test_a_function_of_restitution_loses_no_answer_beside_a_fold():
         )
         assert crossed == sum(-3.0 < one < 4.0 for one in along) == 2
         assert [gained(one) for one in along] == pytest.approx([known] * len(along), rel=1e-7)
+
+
+@pytest.mark.parametrize("friction", [0.3, math.inf])
+@pytest.mark.parametrize("known", [{"delta_v_a": 2.0}, {"delta_v_b": 2.0}])
+def test_a_double_root_is_one_answer(friction, known):
+    """The struck car stood: both roots are there, with an infinite condition."""
+    a = col.Vehicle(mass=1000, yaw_inertia=1500, x=-2.0, y=0.0, heading=0.0)
+    b = col.Vehicle(mass=1000, yaw_inertia=1500, x=2.0, y=0.0, heading=math.pi / 2)
+    found = col.reconstruct.speeds(
+        a,
+        b,
+        course_a=0.0,
+        course_b="90 deg",
+        restitution=0.0,
+        normal=0.0,
+        point=(0.0, 0.0),
+        friction=friction,
+        speed_a=4.0,
+        **known,
+    )
+    assert len(found) == 1
+    assert found[0].b.before.speed == pytest.approx(0.0, abs=1e-9)

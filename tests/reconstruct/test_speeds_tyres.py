@@ -556,6 +556,10 @@ def test_each_root_is_given_once():
     assert [float(root.speed_b) for root, _ in found] == [7.3, -5.2, 17.56466]
     # Roots of the algebra are right to rounding.
     assert len(in_order(scene, roots, False)) == 4
+    for condition in (math.inf, math.nan):
+        twice = [Root(4.0, 0.0, 0.0, condition, 4.0), Root(4.0, 2.5e-15, 0.0, condition, 4.0)]
+        for met in (0.0, SETTLED):
+            assert len(in_order(scene, twice, False, met)) == 1
 
 
 @pytest.mark.parametrize("rule", ["friction", "impulse_ratio", "critical_fraction"])

@@ -99,8 +99,8 @@ def posterior(
         samples go towards the posterior of ``model`` first, until its likelihood to the power 0.15,
         or a lower one where the two models differ by several errors of the readings, and from there
         to the posterior of ``finer``. The answer is that of ``finer`` alone, its evidence included,
-        wherever ``model`` leads, for five to twelve calls of it a sample, not a hundred; the closer
-        the two models are, the fewer. Values that fit under ``finer`` alone,
+        wherever ``model`` leads, for five to twelve calls of it a sample, not a hundred, or up to
+        forty where the two differ by many errors. Values that fit under ``finer`` alone,
         far from all that fit under ``model``, get no samples and are not found.
     tolerance : float [-] or dict, optional
         How far the model may be off, for a ``scene.Scene``: by result, as for ``Scene.required``;

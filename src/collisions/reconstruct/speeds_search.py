@@ -513,7 +513,10 @@ def in_order(
     for i in range(1, len(closing)):
         # Others of the same closing speed may stand between two that are one.
         apart = abs(speeds_a[i] - speeds_a[:i]) + abs(speeds_b[i] - speeds_b[:i])
-        blur = np.clip(met * condition[:i], ROOT_TOL, _ONE_ROOT)
+        # A condition may be infinite or not known, of roots that are right to rounding too.
+        blur = np.full(apart.shape, ROOT_TOL)
+        if met:
+            blur = np.fmax(blur, np.fmin(met * condition[:i], _ONE_ROOT))
         again = (closing[:i] > 0.0) & (apart <= blur * closing[i])
         closing[i] = np.where(np.any(again, axis=0), np.nan, closing[i])
     sort()
