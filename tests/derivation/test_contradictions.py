@@ -308,3 +308,19 @@ def test_what_is_0_in_print_is_0():
     assert page._share_apart(left, right, "speed") == 0.0
     assert page._share_apart(left, symbols.Symbol("q", 1e-3, "speed"), "speed") == 1.0
     assert page._share_apart(symbols.Symbol("s", math.nan, "speed"), right, "speed") == math.inf
+
+
+def test_a_divisor_that_is_all_rounding_is_no_contradiction():
+    """Slip of 1e57 times the closing speed: where the ratio stops it, what it leaves of the
+    resistance to the normal impulse is the rounding of its terms. The page says that it cancels.
+    """
+    impact = col.eccentric(
+        col.Vehicle(mass=39563.6, yaw_inertia=29254.7, x=1.89, y=-0.325, vx=-16.6, vy=20.3),
+        col.Vehicle(mass=20295.0, yaw_inertia=17437.4, x=2.99, y=0.065, vx=-8.9, vy=-2.85e58),
+        0.844,
+        normal=(-1.0, 0.0),
+        point=(-2.735, 3.531),
+        critical_fraction=1.0,
+    )
+    assert impact.normal_impulse > 1e60
+    assert "In this form the numbers cancel" in explain(impact)

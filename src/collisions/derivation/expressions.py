@@ -11,6 +11,7 @@ from decimal import ROUND_HALF_UP, Context, Decimal
 from functools import cache
 from typing import NamedTuple
 
+from ..kernels.status import EPS
 from ..quantities.formatting import Numbers, decimals_of, places, with_decimals
 
 # Numbers in SI within this of 0 are rounding, and printed as 0.
@@ -18,6 +19,7 @@ _ZERO = {"impulse": 1e-8, "angular momentum": 1e-8, "energy": 1e-8, "per mass": 
 _ZERO_OF_OTHERS = 1e-10
 _FIGURES = 4
 _EXACT = 1e-9  # relative: a number this near to one of six figures is that number
+_ROUNDED = 4.0 * EPS  # of the terms of a sum: what is left of them is their rounding
 
 # Printed numbers are worked out in decimals, as a pocket calculator has them: in binary a half may
 # come out below itself, and be rounded down. What has no value there is NaN.
@@ -311,11 +313,11 @@ class Product(Expression):
 
 
 class Quotient(Expression):
-    """A quotient; NaN if its divisor has cancelled to 0, which the page says."""
+    """A quotient; NaN if its divisor has cancelled to 0 or to rounding, which the page says."""
 
     def __init__(self, over: Expression, under: Expression) -> None:
         self.over, self.under = over, under
-        if under.value == 0.0:
+        if abs(under.value) <= _ROUNDED * under.size:
             super().__init__(math.nan, math.nan, over, under)
         else:
             size = over.size / abs(under.value) * (under.size / abs(under.value))
