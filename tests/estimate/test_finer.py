@@ -365,7 +365,7 @@ def test_three_unknowns_by_brute_force():
 @pytest.mark.parametrize("seed", range(4))
 def test_islands_agree_on_seventeen_unknowns(seed):
     """Nine readings of normal unknowns, linear: mean, deviation and evidence in closed form. With
-    1,024 samples the islands agree, for no more than ten calls of the finer model a sample.
+    1,024 samples the islands agree, for no more than twelve calls of the finer model a sample.
     """
     rng = np.random.default_rng([17, seed])
     count, readings, error = 17, 9, 0.2
@@ -404,7 +404,7 @@ def test_islands_agree_on_seventeen_unknowns(seed):
     assert np.sqrt(np.mean(np.square(off))) < 0.07
     ratios = [found[name].std / std[k] for k, name in enumerate(names)]
     assert np.mean(ratios) == pytest.approx(1.0, abs=0.03)
-    assert found.calls["finer"] < 10 * found.samples
+    assert found.calls["finer"] < 12 * found.samples
     # Chi-squared of the best sample lies 4 above the least, more or less by 1.
     assert stats.chi2.isf(found.p_value, readings) == pytest.approx(misfit, abs=2.5)
 
