@@ -61,6 +61,24 @@ def scenes(count, seed, frictions=(0.2, 0.5, 0.8)):
     return found
 
 
+def random_pair(random, n):
+    """Cars that mostly meet, as two batches."""
+
+    def cars(side):
+        return col.Vehicle(
+            mass=random.uniform(900.0, 2500.0, n),
+            yaw_inertia=random.uniform(1200.0, 4500.0, n),
+            x=side * random.uniform(1.0, 2.4, n),
+            y=random.uniform(-1.2, 1.2, n),
+            heading=random.uniform(-3.0, 3.0, n),
+            vx=-side * random.uniform(-2.0, 20.0, n),
+            vy=random.uniform(-12.0, 12.0, n),
+            yaw_rate=random.uniform(-2.0, 2.0, n),
+        )
+
+    return cars(-1.0), cars(1.0)
+
+
 def change(impact):
     """The change of both motions as one vector, in m/s: the yaw rates by the radii of gyration."""
     found = []
@@ -1067,20 +1085,7 @@ def test_the_largest_acceleration_does_not_depend_on_the_step(friction, geometry
     """
     random = np.random.default_rng(4)
     n = 400
-
-    def cars(side):
-        return col.Vehicle(
-            mass=random.uniform(900.0, 2500.0, n),
-            yaw_inertia=random.uniform(1200.0, 4500.0, n),
-            x=side * random.uniform(1.0, 2.4, n),
-            y=random.uniform(-1.2, 1.2, n),
-            heading=random.uniform(-3.0, 3.0, n),
-            vx=-side * random.uniform(-2.0, 20.0, n),
-            vy=random.uniform(-12.0, 12.0, n),
-            yaw_rate=random.uniform(-2.0, 2.0, n),
-        )
-
-    pair, restitution = (cars(-1.0), cars(1.0)), random.uniform(0.0, 0.3, n)
+    pair, restitution = random_pair(random, n), random.uniform(0.0, 0.3, n)
     contact = {"normal": random.uniform(-0.6, 0.6, n), "point": (0.0, 0.0), "friction": friction}
     peaks = []
     for steps in (100, 400):
@@ -1378,18 +1383,7 @@ def test_which_contacts_friction_parts_at_once(geometry):
     """The same of random pairs as under "stronge", each once."""
     random = np.random.default_rng(20261130)
     n = 2000
-
-    def cars(side):
-        return col.Vehicle(
-            mass=random.uniform(900.0, 2500.0, n),
-            yaw_inertia=random.uniform(1200.0, 4500.0, n),
-            x=side * random.uniform(1.0, 2.4, n),
-            y=random.uniform(-1.2, 1.2, n),
-            vx=-side * random.uniform(-2.0, 20.0, n),
-            vy=random.uniform(-12.0, 12.0, n),
-        )
-
-    pair, restitution = (cars(-1.0), cars(1.0)), random.uniform(0.0, 0.3, n)
+    pair, restitution = random_pair(random, n), random.uniform(0.0, 0.3, n)
     contact = {"normal": random.uniform(-0.6, 0.6, n), "point": (0.0, 0.0), "friction": math.inf}
     nan = {"on_failure": "nan"}
     instant = col.eccentric(*pair, restitution, law="stronge", **contact, **nan)

@@ -116,8 +116,8 @@ def propagate(
         rotation as a plain number. Warnings of this library are counted by case where solvers are
         called with arrays of all cases; of calls with plain numbers, as in a loop, or in threads
         that the model starts their number is stated, and those in other threads and processes are
-        not known.
-        Other warnings that the model gives go where warnings go, and are counted nowhere.
+        not known. Other warnings that the model gives go where warnings go, and are counted
+        nowhere.
         A ``scene.Scene`` is a model too: its inputs and ``outputs`` are named by their paths.
     inputs : dict
         For each name a ``Normal``, ``Uniform``, ``Triangular``, ``LogNormal``, ``Samples``,
