@@ -99,9 +99,10 @@ def posterior(
         samples go towards the posterior of ``model`` first, until its likelihood to the power 0.15,
         or a lower one where the two models differ by several errors of the readings, and from there
         to the posterior of ``finer``. The answer is that of ``finer`` alone, its evidence included,
-        wherever ``model`` leads, for five to twelve calls of it a sample, not a hundred, or up to
-        forty where the two differ by many errors. Values that fit under ``finer`` alone,
-        far from all that fit under ``model``, get no samples and are not found.
+        wherever ``model`` leads, for five to twelve calls of it a sample, not a hundred, and more
+        where the two differ by many errors of the readings; ``.calls`` has their number. Values
+        that fit under ``finer`` alone, far from all that fit under ``model``, get no samples and
+        are not found.
     tolerance : float [-] or dict, optional
         How far the model may be off, for a ``scene.Scene``: by result, as for ``Scene.required``;
         or one number for all, as a share of the stated error of each observation. The cheapest
