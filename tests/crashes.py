@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import functools
+from typing import Any
+
+import numpy as np
 
 import collisions as col
 from collisions.scene import Contact, Mover, Run, Scene
@@ -44,3 +47,23 @@ def coasting() -> Run:
     b = col.Vehicle(mass=1000, x=2, y=0, heading=0)
     contact = Contact("<A & co>", "B", restitution=0.0, normal=0, model="linear_central")
     return Scene(movers={"<A & co>": Mover(a), "B": Mover(b)}, contacts=[contact]).run()
+
+
+def over_ice() -> Run:
+    """A car whose brakes lock its wheels on a strip of ice of 0.4 m alone."""
+    car = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=0.0, y=0.0, heading=0.0, vx=25.0)
+    ice = [([(30.05, -5), (30.45, -5), (30.45, 5), (30.05, 5)], 0.1)]
+    mover = Mover(car, tyres=Tyres(0.7, 0.3, 2.7, 1.5))
+    return Scene(movers={"A": mover}, contacts=[], surfaces=ice).run()
+
+
+def furthest_from(x: Any, y: Any, places: Any) -> float:
+    """How far the furthest of these places (2, n) is from the line through x and y, which NaN
+    interrupts.
+    """
+    line = np.array([x, y])
+    begin, along = line[:, :-1, None], np.diff(line)[..., None]
+    length = np.sum(along * along, axis=0)
+    apart = places[:, None] - begin
+    share = np.clip(np.sum(apart * along, axis=0) / np.where(length > 0.0, length, 1.0), 0.0, 1.0)
+    return float(np.max(np.nanmin(np.hypot(*(apart - share * along)), axis=0)))

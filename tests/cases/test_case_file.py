@@ -532,8 +532,8 @@ def test_the_answer_that_was_asked_for_is_warned_of_alone():
         ('"1100 kg"', "9" * 5000, "a.mass: is not TOML: Too many digits (at line 2), 'mass = 9999"),
         ("1100 kg", "1e400 kg", "a.mass: mass is too large: '1e400 kg'"),
         ('"950 kg"', "1e400",
-            (": has the number 1e400, which is larger than 1.7e308; look for a slipped digit, "
-             "or write inf")),
+            ("b.mass: has the number 1e400, which is larger than 1.7e308; look for a slipped "
+             "digit, or write inf")),
         ('"950 kg"', "2024-05-01",
             ('b.mass: is a date or a time, 2024-05-01; write a number, or a text in quotes: '
              '"2024-05-01"')),
@@ -1331,6 +1331,15 @@ def test_the_units_of_a_file_are_those_of_its_answer_unless_the_command_says_oth
     said = run(capsys, file, "--units", "metric")[1]
     assert "km/h" in said
     assert "mph" not in said
+
+
+@pytest.mark.parametrize("wrong", ["0", "false", "[]", "{}", '""', '"imperial"'])
+def test_units_of_a_report_that_are_none_are_refused(wrong, tmp_path, capsys):
+    file = tmp_path / "case.toml"
+    file.write_text(f"{REAR_END}[report]\nunits = {wrong}\n", encoding="utf-8")
+    code, _, said = run(capsys, file)
+    assert code == 2
+    assert "units" in said
 
 
 def test_shares_of_a_variance_begin_with_the_largest_and_tell_those_below_five_percent():

@@ -19,7 +19,7 @@ import matplotlib.pyplot as plt
 import collisions as col
 from collisions import plot
 from collisions.scene import Contact, Mover, Scene
-from crashes import NAMES, coasting, three_cars
+from crashes import NAMES, coasting, furthest_from, over_ice, three_cars
 
 FOOT, MPH = 0.3048, 0.44704
 
@@ -83,9 +83,11 @@ def test_tracks_marks_surfaces_and_contacts_are_those_of_the_run() -> None:
         (line,) = by_gid(axes, f"{name}.track")
         np.testing.assert_allclose(line.get_xdata() * FOOT, run.paths[name].x, rtol=1e-12)
         np.testing.assert_allclose(line.get_ydata() * FOOT, run.paths[name].y, rtol=1e-12)
-        marks = [x for x, _ in run.paths[name].marks.values() if np.isfinite(x).any()]
-        for x, mark in zip(marks, by_gid(axes, f"{name}.mark"), strict=True):
-            np.testing.assert_allclose(mark.get_xdata() * FOOT, x, rtol=1e-12)
+        marks = [np.array(xy) for xy in run.paths[name].marks.values() if np.isfinite(xy).any()]
+        for places, mark in zip(marks, by_gid(axes, f"{name}.mark"), strict=True):
+            x, y = np.array(mark.get_data()) * FOOT
+            assert furthest_from(x, y, places[:, np.isfinite(places[0])]) < 5e-3
+            assert furthest_from(*places, np.array([x, y])[:, np.isfinite(x)]) < 0.4  # a step
     (area,) = by_gid(axes, "surface.0")
     assert drawn(area, FOOT) == {(2.0, 4.0), (8.0, 4.0), (8.0, 9.0), (2.0, 9.0)}
     for number, impact in enumerate(run.impacts):
@@ -97,6 +99,16 @@ def test_tracks_marks_surfaces_and_contacts_are_those_of_the_run() -> None:
     assert "40.0 mph" in texts
     assert "standing" in texts
     assert "friction 0.3" in texts
+
+
+def test_a_mark_is_drawn_from_its_begin_to_its_end() -> None:
+    """Also one that lies between two moments of the run's clock."""
+    run = over_ice()
+    marks = by_gid(plot.scene(run), "A.mark")
+    assert len(marks) == 4
+    for mark in marks:
+        x, _ = mark.get_data()
+        assert (x[0], x[-1]) == pytest.approx((30.05, 30.45), abs=1e-5)
 
 
 @pytest.mark.slow

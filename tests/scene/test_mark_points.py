@@ -132,6 +132,51 @@ def test_a_mark_ends_where_the_wheel_leaves_off_and_not_at_the_last_moment_befor
     assert steps.max() < 0.05
 
 
+@pytest.mark.parametrize("width", [2.0, 1.0, 0.3, 0.04])
+def test_a_mark_on_a_strip_of_ice_is_as_long_as_the_strip(width: float) -> None:
+    """A brake that 0.3 of the friction holds locks its wheel where there is a seventh of it."""
+    ice = [([(30.05, -5), (30.05 + width, -5), (30.05 + width, 5), (30.05, 5)], 0.1)]
+    car = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=0.0, y=0.0, heading=0.0, vx=25.0)
+    mover = Mover(car, tyres=Tyres(0.7, 0.3, 2.7, 1.5))
+    scene = Scene(movers={"A": mover}, contacts=[], surfaces=ice)
+    ends = [f"A.marks.front_left.{end}.{axis}" for end in ("begin", "end") for axis in "xy"]
+    middle = f"A.marks.front_left.distance({30.05 + 0.5 * width!r} m, 0.85 m)"
+    expected = pytest.approx([30.05, 0.75, 30.05 + width, 0.75, 0.1], abs=1e-5)
+    assert asked(scene, [*ends, middle]) == expected
+    batch = scene.as_model(["A.vx"], [*ends, middle])(**{"A.vx": np.array([24.0, 25.0, 27.0])})
+    for case in range(3):
+        assert [part.m_as("m")[case] for part in batch.values()] == expected
+
+
+def used(friction: float, lock: float, wheel: tuple[float, float], car: Any) -> Any:
+    """The share of the friction that a wheel uses, and its place, by the law that ``Tyres`` has
+    and by geometry of this file: the brake, then Fiala's side force of a cornering of 9.5.
+    """
+    c, s = np.cos(car.heading), np.sin(car.heading)
+    x, y = c * wheel[0] - s * wheel[1], s * wheel[0] + c * wheel[1]
+    vx, vy = car.vx - car.yaw_rate * y, car.vy + car.yaw_rate * x
+    forward, left = c * vx + s * vy, c * vy - s * vx
+    along = min(lock, abs(forward) / np.hypot(forward, left))
+    slip = min(1.0, 9.5 * abs(left / forward) / (3.0 * friction))
+    across = min(np.sqrt(1.0 - along * along), 1.0 - (1.0 - slip) ** 3)
+    return np.hypot(along, across), car.x + x, car.y + y
+
+
+@pytest.mark.parametrize("lock", [0.1, 0.3, 0.6])
+def test_a_mark_ends_where_the_use_of_friction_falls_below_90_percent(lock: float) -> None:
+    scene = spun(lock, vx=25.0, vy=-3.0, yaw_rate=1.4)
+    paths = [f"A.marks.front_left.end.{axis}" for axis in "xy"]
+    ends = [one.m_as("m") for one in scene.as_model([], paths, tolerance=1e-9)().values()]
+    run = scene.run(tolerance=1e-9)
+    times = np.linspace(0.0, 0.98 * run.end, 2001)
+    for _ in range(2):
+        found = [used(0.7, lock, WHEELS["front_left"], run.at(time)["A"]) for time in times]
+        last = int(np.flatnonzero([use >= 0.9 for use, _, _ in found])[-1])
+        assert last < len(times) - 1
+        times = np.linspace(times[last], times[last + 1], 101)
+    assert ends == pytest.approx(found[last][1:], abs=2e-3)
+
+
 @pytest.mark.parametrize("case", range(3))
 def test_a_batch_has_the_distances_of_its_cases(case: int) -> None:
     scene = crash()

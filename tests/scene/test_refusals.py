@@ -234,6 +234,14 @@ def test_a_contact_refuses_with_what_to_write(
     check(refused.value, kind, code, says)
 
 
+def test_a_name_that_is_a_list_in_itself_is_refused_like_any_other() -> None:
+    deep: list[Any] = []
+    for _ in range(5000):
+        deep = [deep]
+    with pytest.raises(col.InputError, match="a must be the name of a vehicle of the scene"):
+        contact(a=deep, tyres_after={"A": WHEELS})
+
+
 def test_a_contact_with_two_rules_and_a_law_of_one_names_the_other() -> None:
     with pytest.raises(InputError) as refused:
         contact(law="stronge", impulse_ratio=0.2)

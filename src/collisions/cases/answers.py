@@ -194,7 +194,10 @@ class Answers:
         return {"results": results, "uncertainty": ranges, "warnings": self.warnings}
 
     def _units(self, units: str | None) -> Any:
-        return units or self.case.report.get("units") or spoken_system(given_texts(self.results[0]))
+        given = {"units": units} if units else self.case.report
+        if "units" in given:
+            return given["units"]
+        return spoken_system(given_texts(self.results[0]))
 
     def _made(self, function: Any, arguments: dict[str, Any], key: str = "report") -> Any:
         """What a function makes of the results; its warnings are kept, and a refusal names the

@@ -8,7 +8,7 @@ import math
 import re
 import tomllib
 from codecs import BOM_UTF16_BE, BOM_UTF16_LE
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from datetime import date, time
 from functools import cache
@@ -273,6 +273,8 @@ def read_text(data: bytes) -> Case:
             "utf-16" if data.startswith((BOM_UTF16_LE, BOM_UTF16_BE)) else "utf-8-sig"
         )
         document = tomllib.loads(text, parse_float=_float)
+        if problems := list(_too_large(document)):
+            raise CaseError(*problems)
         reader = Reader(document)
     except UnicodeDecodeError:
         raise CaseError(("", "is no text in UTF-8; save it with this encoding")) from None
@@ -285,20 +287,35 @@ def read_text(data: bytes) -> Case:
     return reader.case()
 
 
+class _TooLarge(float):
+    """A number of a file that is too large for a float, which would become infinite."""
+
+    text: str
+
+
 def _float(text: str) -> float:
-    """A number of a file; one too large for a float, which would become infinite, is refused."""
+    """A number of a file."""
     found = float(text)
     if math.isinf(found) and "inf" not in text:
-        raise CaseError(
-            (
-                "",
-                (
-                    f"has the number {text[:40]}, which is larger than 1.7e308; look for a "
-                    "slipped digit, or write inf"
-                ),
-            )
-        )
+        found = _TooLarge(found)
+        found.text = text
     return found
+
+
+def _too_large(given: Any, key: str = "") -> Iterator[tuple[str, str]]:
+    """The keys of numbers that are too large, and what is wrong with them."""
+    if isinstance(given, _TooLarge):
+        yield (
+            key,
+            f"has the number {given.text[:40]}, which is larger than 1.7e308; look for a slipped "
+            "digit, or write inf",
+        )
+    elif isinstance(given, dict):
+        for name, value in given.items():
+            yield from _too_large(value, f"{key}.{name}" if key else name)
+    elif isinstance(given, list):
+        for i, value in enumerate(given):
+            yield from _too_large(value, f"{key}[{i}]")
 
 
 def _not_toml(text: str, error: str) -> tuple[str, str]:

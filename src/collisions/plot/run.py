@@ -11,6 +11,7 @@ import numpy as np
 
 from ..messages.errors import CollisionsError, MissingInputError
 from ..quantities.formatting import UnitSystem
+from ..scene.marks import drawn
 from ..scene.one_run import need_one_run
 from ..scene.picture import COLOURS, DASHES, from_the_front
 from ..scene.run import Run, Track
@@ -38,6 +39,7 @@ class Stop(NamedTuple):
 def draw_run(run: Run, axes: Axes | None, units: UnitSystem | None) -> Axes:
     """Draw a run from above, to scale."""
     labels, tracks = Units(units, run), tracks_of(run, "plot.scene")
+    marks = {name: drawn(run, name) for name in tracks}
     metre = labels.factor("m")
     axes = begin(axes, (8.6, 7.0))
     drawing = Drawing(axes)
@@ -47,15 +49,14 @@ def draw_run(run: Run, axes: Axes | None, units: UnitSystem | None) -> Axes:
         line = np.array([track.x, track.y]) * metre
         drawing.include(*zip(*line.tolist(), strict=True))
         axes.plot(*line, color=colour, lw=1.2, ls=style, zorder=3, gid=f"{name}.track")
-        for x, y in track.marks.values():
+        for _, x, y in marks[name].values():
+            axes.plot(
+                x * metre, y * metre, color=INK, lw=1.6, alpha=0.4, zorder=1, gid=f"{name}.mark"
+            )
             slid = np.isfinite(x)
-            if slid.any():
-                axes.plot(
-                    x * metre, y * metre, color=INK, lw=1.6, alpha=0.4, zorder=1, gid=f"{name}.mark"
-                )
-                drawing.include(
-                    *zip((x[slid] * metre).tolist(), (y[slid] * metre).tolist(), strict=True)
-                )
+            drawing.include(
+                *zip((x[slid] * metre).tolist(), (y[slid] * metre).tolist(), strict=True)
+            )
     for index, name in enumerate(tracks):
         _stops(run, name, index, drawing, labels)
     for number, (time, pair, impact) in enumerate(
@@ -69,8 +70,8 @@ def draw_run(run: Run, axes: Axes | None, units: UnitSystem | None) -> Axes:
         drawing.include(at)
         axes.plot(*at, "X", ms=8, mfc=INK, mec="white", zorder=8, gid=f"contact.{number}")
         drawing.label(at, f"{contact_name(number, pair)}\nat {time:.2f} s", (1.0, 1.0))
-    marked = any(np.isfinite(x).any() for track in tracks.values() for x, _ in track.marks.values())
-    note = f"outlines: dashed at the start, thin at contacts, filled at the end{_MARKS * marked}"
+    marked = _MARKS * any(marks.values())
+    note = f"outlines: dashed at the start, thin at contacts, filled at the end{marked}"
     axes.set(xlabel=f"{labels.label('x', 'm')}\n{note}", ylabel=labels.label("y", "m"))
     names = in_lines(", ".join(tracks), 70, 2)
     axes.set_title(f"{names}: from the start to rest", fontsize=10.5, parse_math=False)

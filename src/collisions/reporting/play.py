@@ -19,6 +19,7 @@ from ..quantities.formatting import UnitSystem, decimals_of, typeset
 from ..quantities.printed_tables import html_row
 from ..quantities.tables import Cells, as_sentence, cells, given_texts, label_of
 from ..scene.frames import Frames, frames_of
+from ..scene.marks import drawn
 from ..scene.mover import Mover
 from ..scene.picture import COLOURS, DASHES, bar_of, from_the_front, place_of, view_of
 from ..scene.run import Run, Track
@@ -133,7 +134,7 @@ def _written(run: Run, tracks: dict[str, Track], frames: Frames, system: Cells) 
                 "colour": COLOURS[index % len(COLOURS)],
                 "dash": DASHES[index % len(DASHES)],
                 "outline": _outline(run.scene.movers[name]),
-                "marks": _marks(tracks[name]),
+                "marks": _marks(run, name),
                 "speed": np.hypot(*frames.states[name][3:5]).tolist(),
                 **{
                     part: row.tolist()
@@ -203,24 +204,16 @@ def _outline(mover: Mover) -> list[list[float]] | None:
     return found
 
 
-def _marks(track: Track) -> list[dict[str, Any]]:
+def _marks(run: Run, name: str) -> list[dict[str, Any]]:
     """The marks by wheel, with the time at which each place was passed; None between stretches."""
-    found = []
-    for x, y in track.marks.values():
-        slid = np.isfinite(x)
-        if not slid.any():
-            continue
-        # What lies within a gap is of no use, but for one moment that ends the stretch.
-        kept = slid | np.roll(slid, 1)
-        kept[0] = slid[0]
-        found.append(
-            {
-                "t": track.time[kept].tolist(),
-                "x": [one if math.isfinite(one) else None for one in x[kept].tolist()],
-                "y": [one if math.isfinite(one) else None for one in y[kept].tolist()],
-            }
-        )
-    return found
+    return [
+        {"t": time.tolist()}
+        | {
+            axis: [one if math.isfinite(one) else None for one in places.tolist()]
+            for axis, places in (("x", x), ("y", y))
+        }
+        for time, x, y in drawn(run, name).values()
+    ]
 
 
 def _said(run: Run, number: int, names: dict[str, str], system: Cells) -> str:

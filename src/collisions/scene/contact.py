@@ -335,7 +335,7 @@ def _tyres_after(reader: ArgumentReader, given: Any, pair: tuple[Any, Any]) -> M
     if not isinstance(given, Mapping):
         text = (
             "tyres_after must be a dict from names to Tyres, such as "
-            f"{{{pair[0]!r}: Tyres(...)}}, got {shown(given)}"
+            f"{{{shown(pair[0])}: Tyres(...)}}, got {shown(given)}"
         )
         reader.refuse(InputError(text, code="bad_shape", argument="tyres_after"))
         return {}
@@ -344,12 +344,12 @@ def _tyres_after(reader: ArgumentReader, given: Any, pair: tuple[Any, Any]) -> M
     for name, tyres in given.items():
         if name not in names:
             text = (
-                f"tyres_after names {shown(name)}, and this contact is between {pair[0]!r} and "
-                f"{pair[1]!r}"
+                f"tyres_after names {shown(name)}, and this contact is between {shown(pair[0])} "
+                f"and {shown(pair[1])}"
             )
             reader.refuse(InputError(text, code="unknown_name", argument="tyres_after"))
         if not isinstance(tyres, Tyres):
-            reader.refuse(not_tyres(f"tyres_after[{name!r}]", tyres))
+            reader.refuse(not_tyres(f"tyres_after[{shown(name)}]", tyres))
     return dict(given)
 
 

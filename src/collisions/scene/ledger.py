@@ -16,6 +16,8 @@ from ..vehicle.tyres import Tyres, kernel_numbers
 from .motion import Ground
 from .mover import Mover
 
+# A vehicle slower than this [m/s] stands: what is left of its speed at rest is rounding.
+_STANDS = 1e-9
 _WHEELS = ((1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0))
 
 
@@ -59,7 +61,8 @@ def on_tyres(tyres: Tyres, mover: Mover, ground: Ground, state: Any, cases: Any 
         here = list(areas.friction_at(px, py))
     reach = np.hypot(own.ahead, own.left)
     speed = np.sqrt(vx * vx + vy * vy + (turn * reach) ** 2)
-    scale = np.where(speed > 0.0, speed, 1.0)
+    moves = speed > _STANDS
+    scale = np.where(moves, speed, 1.0)
     wheels = wheel_forces(
         own,
         tuple(here),
@@ -74,9 +77,9 @@ def on_tyres(tyres: Tyres, mover: Mover, ground: Ground, state: Any, cases: Any 
     for at, (along, across, load) in enumerate(wheels):
         pull = load * here[at] * weight
         power -= pull * (along * (forward - turn * aside[at]) + across * (left + turn * ahead[at]))
-        use[at] = np.where(speed > 0.0, np.hypot(along, across), 0.0)
+        use[at] = np.where(moves, np.hypot(along, across), 0.0)
     # At rest they take nothing, also of a vehicle whose heading is not known.
-    power = np.where(speed > 0.0, power, 0.0)
+    power = np.where(moves, power, 0.0)
     return OnTyres(power, np.array([px, py]).swapaxes(0, 1), use)
 
 

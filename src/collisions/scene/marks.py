@@ -19,7 +19,7 @@ from ..quantities.units import is_quantity, magnitude, shown
 from ..travel.simulate import MARKS
 from ..uncertainty.distributions import Normal
 from ..vehicle.tyres import WHEELS as IN_WORDS
-from .ledger import on_tyres
+from .ledger import OnTyres, on_tyres
 
 if TYPE_CHECKING:
     from .motion import Leg
@@ -30,6 +30,12 @@ WHEELS = tuple(wheel.replace(" ", "_") for wheel in IN_WORDS)
 # Places along the mark of one motion: a wheel that turns within a few metres is then a millimetre
 # or a few from the chords between them, and a survey some centimetres.
 _PLACES = 101
+# How near to rest a motion is followed, as a share of its time.
+_BEFORE_REST = 1e-6
+# of the time from one place to the next, until it is known where a mark begins or ends
+_HALVINGS = 24
+# Stretches of a mark that are nearer to each other [s] are one.
+_NO_GAP = 1e-9
 # Cases that are worked out together, which keeps memory small.
 _BLOCK = 256
 _DISTANCE = re.compile(r"distance\(([^,]*),([^,]*)\)")
@@ -222,6 +228,32 @@ def answers(run: Run, asked: Sequence[OfMark]) -> list[Any]:
     return [float(value) for value in found[:, 0]]
 
 
+def drawn(run: Run, name: str) -> dict[str, tuple[Any, Any, Any]]:
+    """The marks of one vehicle in a run of a single case, by wheel: time [s], x and y [m] along
+    them, from where each begins to where it ends; x and y are NaN between stretches. A wheel that
+    leaves none is not in it.
+    """
+    course, every = run._followed.courses[name], range(len(WHEELS))
+    if not any(tyres is not None for tyres in course.wheels):
+        return {}
+    ways: dict[str, list[Any]] = {wheel: [] for wheel in WHEELS}
+    for start, _, lines in _lines(run, name, every):
+        for way, line in zip(ways.values(), lines, strict=True):
+            pieces = np.array(line)[:, np.isfinite(line.x)]
+            for begin, on in zip(pieces[:3].T, pieces[3:].T, strict=True):
+                begin[0] += start[0]
+                # One that rolls on when all others are at rest is drawn no further than these.
+                if begin[0] >= run.end:
+                    break
+                if on[0] > run.end - begin[0]:
+                    on *= (run.end - begin[0]) / on[0]
+                if not way or begin[0] - way[-1][0] > _NO_GAP:
+                    # A stretch ends here and another begins.
+                    way += [np.array([one[0], np.nan, np.nan]) for one in way[-1:]] + [begin]
+                way.append(begin + on)
+    return {wheel: tuple(np.array(way).T) for wheel, way in ways.items() if way}
+
+
 def _of_one_vehicle(run: Run, name: str, asked: Sequence[OfMark]) -> Any:
     """What is asked for of the marks of one vehicle, (asked, cases)."""
     followed = run._followed
@@ -232,7 +264,7 @@ def _of_one_vehicle(run: Run, name: str, asked: Sequence[OfMark]) -> Any:
     found = np.full((len(asked), count), np.nan)
     wheels = sorted({one.wheel for one in asked})
     # Of each case in order of time.
-    for cases, lines in _lines(run, name, wheels):
+    for _, cases, lines in _lines(run, name, wheels):
         for at, one in enumerate(asked):
             line, before = lines[wheels.index(one.wheel)], found[at, cases]
             if one.what == "distance":
@@ -248,12 +280,14 @@ def _of_one_vehicle(run: Run, name: str, asked: Sequence[OfMark]) -> Any:
 
 
 class _Line(NamedTuple):
-    """The pieces of a mark: where each begins and how it goes on, NaN where there is none, each of
-    (pieces, cases).
+    """The pieces of a mark: when and where each begins and how it goes on, NaN where there is none,
+    each of (pieces, cases).
     """
 
+    time: Any
     x: Any
     y: Any
+    takes: Any
     along: Any
     across: Any
 
@@ -262,12 +296,14 @@ class _Line(NamedTuple):
         good = np.isfinite(self.x)
         last = which == "end"
         piece = len(good) - 1 - good[::-1].argmax(axis=0) if last else good.argmax(axis=0)
-        places = self[axis] + last * self[2 + axis]
+        places = (self.x, self.y)[axis] + last * (self.along, self.across)[axis]
         return np.take_along_axis(places, piece[None], axis=0)[0]
 
 
-def _lines(run: Run, name: str, wheels: Sequence[int]) -> Iterator[tuple[Any, list[_Line]]]:
-    """The marks of some wheels, motion by motion: the cases that they are of, and the lines."""
+def _lines(run: Run, name: str, wheels: Sequence[int]) -> Iterator[tuple[Any, Any, list[_Line]]]:
+    """The marks of some wheels, motion by motion: when it starts, the cases that they are of, and
+    the lines.
+    """
     course = run._followed.courses[name]
     legs = course.settled()
     for number, leg in enumerate(legs):
@@ -276,12 +312,14 @@ def _lines(run: Run, name: str, wheels: Sequence[int]) -> Iterator[tuple[Any, li
         next_start = np.full(course.count, np.inf)
         for later in reversed(legs[number + 1 :]):
             next_start[later.which] = later.start
-        until = next_start[leg.which] - leg.start - leg.hold
+        starts = leg.start + leg.hold
+        until = next_start[leg.which] - starts
         # A contact may come before the motion after another has begun.
         moving = np.flatnonzero((leg.place >= 0) & (until > 0.0))
         for begin in range(0, len(moving), _BLOCK):
             some = moving[begin : begin + _BLOCK]
-            yield leg.which[some], _lines_of(run, name, leg, some, until[some], wheels)
+            lines = _lines_of(run, name, leg, some, until[some], wheels)
+            yield starts[some], leg.which[some], lines
 
 
 def _lines_of(
@@ -289,20 +327,28 @@ def _lines_of(
 ) -> list[_Line]:
     """The marks of some wheels in one motion of some of its cases, until a time of each."""
     assert leg.followed is not None
-    assert leg.tyres is not None
     place, last = leg.place[some], np.isinf(until)
     ends = until.copy()
-    ends[last] = leg.followed.ends(place[last])
+    # At rest a wheel uses no friction, and until then as much as in the moment before.
+    ends[last] = (1.0 - _BEFORE_REST) * leg.followed.ends(place[last])
     times = _moments(ends, last)
-    column = np.broadcast_to(np.arange(len(some)), times.shape).ravel()
-    states = leg.followed.at(times.ravel(), place[column])
-    cases = leg.which[some[column]]
-    found = on_tyres(leg.tyres, run.scene.movers[name], run._followed.ground, states, cases)
-    lines = []
-    for wheel in wheels:
-        x, y = found.places[wheel].reshape(2, *times.shape)
-        lines.append(_line(x, y, found.use[wheel].reshape(times.shape), last))
-    return lines
+    if run._followed.ground.surfaces:
+        # No step goes over an edge: what lies between two, however narrow, has the middle of one.
+        steps = np.minimum(leg.followed.steps(place), ends)
+        times = np.sort(np.concatenate([times, 0.5 * (steps[1:] + steps[:-1])]), axis=0)
+    every = np.arange(len(some))
+    found = _seen(run, name, leg, some, times, every)
+    return [_line(run, name, leg, some, times, found, wheel) for wheel in wheels]
+
+
+def _seen(run: Run, name: str, leg: Leg, some: Any, times: Any, columns: Any) -> OnTyres:
+    """What the tyres do at times (..., columns) of some cases, of which these are the columns."""
+    assert leg.followed is not None
+    assert leg.tyres is not None
+    case = np.broadcast_to(some[columns], times.shape).ravel()
+    states = leg.followed.at(times.ravel(), leg.place[case])
+    mover, ground = run.scene.movers[name], run._followed.ground
+    return on_tyres(leg.tyres, mover, ground, states, leg.which[case])
 
 
 def _moments(ends: Any, last: Any) -> Any:
@@ -313,26 +359,28 @@ def _moments(ends: Any, last: Any) -> Any:
     return ends * np.where(last, 1.0 - np.sqrt(1.0 - share), share)
 
 
-def _line(x: Any, y: Any, use: Any, last: Any) -> _Line:
-    """The mark of a wheel by its places, of (moments, cases): as far as it uses enough of the
-    friction, which goes evenly from one place to the next.
+def _line(
+    run: Run, name: str, leg: Leg, some: Any, times: Any, found: OnTyres, wheel: int
+) -> _Line:
+    """The mark of a wheel by its places at times of (moments, cases): as far as it uses enough of
+    the friction.
     """
-    # At rest it uses none, and what it does until then is that of the moment before.
-    use[-1] = np.where(last, use[-2], use[-1])
-    one, two = use[:-1], use[1:]
-    marks = np.maximum(one, two) >= MARKS
-    steep = np.where(one == two, 1.0, two - one)
-    turn = (MARKS - one) / steep
-    begin = np.where(one >= MARKS, 0.0, turn)
-    end = np.where(two >= MARKS, 1.0, turn)
-    along, across = np.diff(x, axis=0), np.diff(y, axis=0)
-    none = np.where(marks, 0.0, np.nan)
-    return _Line(
-        x[:-1] + begin * along + none,
-        y[:-1] + begin * across + none,
-        (end - begin) * along + none,
-        (end - begin) * across + none,
-    )
+    marks = found.use[wheel].reshape(times.shape) >= MARKS
+    way = np.stack([times, *found.places[wheel].reshape(2, *times.shape)])
+    begin, end = way[:, :-1].copy(), way[:, 1:].copy()
+    piece, case = np.nonzero(marks[1:] != marks[:-1])
+    # Where it begins or leaves off, between two moments.
+    low, high = times[piece, case], times[piece + 1, case]
+    begins = marks[piece + 1, case]
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        early = (_seen(run, name, leg, some, middle, case).use[wheel] >= MARKS) != begins
+        low, high = np.where(early, middle, low), np.where(early, high, middle)
+    turn = np.stack([high, *_seen(run, name, leg, some, high, case).places[wheel]])
+    begin[:, piece, case] = np.where(begins, turn, begin[:, piece, case])
+    end[:, piece, case] = np.where(begins, end[:, piece, case], turn)
+    none = np.where(marks[1:] | marks[:-1], 0.0, np.nan)
+    return _Line(*(begin + none), *(end - begin))
 
 
 def _to_line(line: _Line, x: float, y: float) -> tuple[Any, Any]:

@@ -60,7 +60,9 @@ class Track(Shown):
     yaw_rate : array [rad/s]
     marks : dict of pairs of arrays [m], optional
         By wheel ("front_left" and so on), x and y of its track where the tyre uses 90 % of the
-        friction or more; NaN elsewhere. Empty without tyres, and of a batch.
+        friction or more; NaN elsewhere. Empty without tyres, and of a batch. A mark that is shorter
+        than a step of this clock may lie between two of its moments; ``plot.scene``, ``play`` and
+        the results "begin" and "end" have every mark from where it begins to where it ends.
     """
 
     _title: ClassVar[str] = "Track"
@@ -629,7 +631,11 @@ class Run(Frozen, Summarized):
         jumps: list[float] = []
         for leg in course.settled():
             acts = float(leg.start[0] + leg.hold[0])
-            steps = [] if leg.followed is None else leg.followed.moments
+            steps = (
+                []
+                if leg.followed is None
+                else leg.followed.steps(np.zeros(1, dtype=int))[:, 0].tolist()
+            )
             jumps += [acts, acts + float(leg.stops[0]), *(acts + moment for moment in steps)]
         for begin, end in pairwise(self._bounds()[:, 0].tolist()):
             if end <= begin:

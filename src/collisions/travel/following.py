@@ -125,21 +125,29 @@ class Following:
 
     def rests(self, cases: Any) -> Any:
         """When some cases rest [s], which are followed to their end for it."""
-        self._reach(np.full(len(cases), np.inf), cases)
-        rests = self._reached[cases] * self._second[cases]
-        return np.where(self._ended[cases] == RESTS, rests, np.inf)
+        ends = self.ends(cases)
+        return np.where(self._ended[cases] == RESTS, ends, np.inf)
 
     def ends(self, cases: Any) -> Any:
         """When some cases rest or roll straight on [s], which are followed to that."""
         self._reach(np.full(len(cases), np.inf), cases)
-        return self._reached[cases] * self._second[cases]
+        # What cannot be followed has no number.
+        with np.errstate(all="ignore"):
+            return self._reached[cases] * self._second[cases]
 
-    @property
-    def moments(self) -> list[float]:
-        """When the steps of a single case end [s], as far as it was followed; none goes over an
-        edge.
+    def steps(self, cases: Any) -> Any:
+        """When the steps of some cases begin and end [s], (moments, cases), as far as they were
+        followed; the first again and again of one with fewer. None goes over an edge.
         """
-        return [self._units[0] * time for time in self._times]
+        found = [np.zeros((1, len(cases)))]
+        for piece in self._all_pieces():
+            place = piece.place[cases]
+            first, last = piece.first[place], piece.last[place]
+            rows = first + np.arange(int(np.max(last - first, initial=0)) + 1)[:, None]
+            moments = piece.rows[0, np.minimum(rows, last)]
+            found.append(np.where(place >= 0, moments, 0.0))
+        with np.errstate(all="ignore"):
+            return np.sort(np.concatenate(found), axis=0) * self._second[cases]
 
     def known(self, cases: Any) -> Any:
         """Whether some cases have been followed to their end."""
