@@ -278,6 +278,56 @@ def test_a_drag_does_not_act_during_a_contact_in_time_and_that_is_said() -> None
     assert all(one.code != "drag_during_contact" for one in bare.findings)
 
 
+def on_ice(tyres: Any, surfaces: Any, model: str, speed: Any = 8.0 / 3.6) -> Any:
+    """A car that is struck from behind at walking pace, on wheels that its brakes hold."""
+    hit = Contact(
+        "A", "B", restitution=0.3, friction=0.5, normal=0.0, point=(0.0, 0.0), duration=0.12,
+        model=model,
+    )  # fmt: skip
+    movers = {
+        "A": Mover(car(x=-2.2, vx=speed), tyres=tyres),
+        "B": Mover(car(x=2.2), tyres=tyres),
+    }
+    return Scene(movers=movers, contacts=[hit], surfaces=surfaces).run()
+
+
+def around(low: float, high: float, friction: Any) -> Any:
+    return [([(-90.0, low), (90.0, low), (90.0, high), (-90.0, high)], friction)]
+
+
+@pytest.mark.parametrize("model", ["eccentric", "time_resolved"])
+@pytest.mark.parametrize(("lock", "there"), [(1.0, 1.0), (0.3, 1.0), (0.1, 0.7)])
+def test_tyres_have_the_friction_of_the_ground_while_a_contact_lasts(model, lock, there) -> None:
+    """The same as tyres of that friction, whose brakes hold the same force; and no more than the
+    friction on this ground can give.
+    """
+    run = on_ice(Tyres(0.7, lock, 2.7, 1.5), around(-9.0, 9.0, 0.1), model)
+    same = on_ice(Tyres(0.1, there, 2.7, 1.5), None, model)
+    assert run.impacts[0].b.delta_v == pytest.approx(same.impacts[0].b.delta_v, rel=1e-9)
+    assert run.rest["B"].x == pytest.approx(same.rest["B"].x, rel=1e-4)
+    taken = math.hypot(run.impacts[0].b.tyre_impulse_x, run.impacts[0].b.tyre_impulse_y)
+    most = 0.1 * 1500.0 * col.travel.GRAVITY * 0.13
+    assert 0.5 * there * most < taken < most
+    batch = on_ice(
+        Tyres(0.7, lock, 2.7, 1.5),
+        around(-9.0, 9.0, np.array([0.1, 0.7])),
+        model,
+        np.array([8.0 / 3.6, 3.0]),
+    )
+    assert batch.impacts[0].b.delta_v[0] == pytest.approx(run.impacts[0].b.delta_v, rel=1e-9)
+
+
+def test_wheels_on_different_ground_have_the_mean_and_that_is_said() -> None:
+    """The left wheels are on ice."""
+    run = on_ice(Tyres(0.7, 1.0, 2.7, 1.5), around(0.0, 9.0, 0.1), "eccentric")
+    assert {one.code for one in run.findings} == {"mixed_friction"}
+    assert "of A stand on ground of different friction" in run.findings[0].sentence
+    same = on_ice(Tyres(0.4, 1.0, 2.7, 1.5), None, "eccentric")
+    assert run.impacts[0].b.delta_v == pytest.approx(same.impacts[0].b.delta_v, rel=1e-9)
+    with pytest.warns(col.OutOfRangeWarning, match="in 1 of 2 cases .* different friction"):
+        on_ice(Tyres(0.7, 1.0, 2.7, 1.5), around(0.0, 9.0, np.array([0.1, 0.7])), "eccentric")
+
+
 @pytest.mark.parametrize("model", ["eccentric", "solve"])
 def test_nor_does_it_act_beside_the_impulse_of_the_tyres_of_the_other(model) -> None:
     """The struck car goes on by the velocity after the impact until the contact has passed."""

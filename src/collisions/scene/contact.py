@@ -85,8 +85,9 @@ class Contact(Shown):
         With the model "eccentric" it is for the impulse of the tyres; the vehicles then move on by
         the velocities after it until it has passed, and from there on their tyres: that is the
         duration, and at time 0 half of it, as the states there are those of maximum engagement,
-        with half of the contact before them. For "solve", both. A drag of a vehicle, in place of
-        tyres, does not act meanwhile, which is a finding.
+        with half of the contact before them. For "solve", both. Tyres have the friction of the
+        surface that the vehicle stands on, or the mean of several, which is a finding. A drag of a
+        vehicle, in place of tyres, does not act meanwhile, which is a finding too.
     tolerance : float, str, Quantity or array [m/s], optional
         With the model "solve", the largest error that is accepted.
     friction, impulse_ratio, critical_fraction : float, str, Quantity or array [-], optional

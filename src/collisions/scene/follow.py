@@ -26,8 +26,10 @@ from ..quantities.settings import in_si
 from ..quantities.tables import Sentences
 from ..quantities.units import texts_of
 from ..vehicle.drag import in_plan
+from ..vehicle.tyres import Tyres
 from ..vehicle.vehicle import needed
 from .contact import IN_TIME, USUAL_DELAY, Contact
+from .ledger import tyres_where_they_are
 from .motion import Course, Ground, body_at, follow_on, moved
 from .mover import Mover
 from .touching import (
@@ -208,6 +210,7 @@ class Followed:
         # says what happens, and whether a touch is passed over as nothing pushes in it.
         self.driven: Any = np.zeros(self.count, dtype=bool)
         self.dragless: Any = np.zeros(self.count, dtype=bool)
+        self.mixed: Any = np.zeros(self.count, dtype=bool)
         self.undescribed: Any = np.zeros(self.count, dtype=bool)
         self.passed_over: Any = np.zeros(self.count, dtype=bool)
         # The contacts of each case in order, and when they came; -1 and NaN after the last.
@@ -1076,9 +1079,7 @@ class Followed:
             if contact.duration is not None:
                 options["duration"] = numbers(contact.duration)
                 for label, name in (("a", contact.a), ("b", contact.b)):
-                    course = self.courses[name]
-                    tyres = course.wheels[int(course.wheels_of[which[0]])]
-                    options[f"tyres_{label}"] = numbers(tyres) if tyres is not None else None
+                    options[f"tyres_{label}"] = self._tyres(name, which, time, states[name])
         if contact.model == "solve":
             options["tolerance"] = 0.0 if contact.tolerance is None else numbers(contact.tolerance)
         if not self.single:
@@ -1093,6 +1094,23 @@ class Followed:
             where = f"contacts[{rule}], {contact.a} and {contact.b} at {float(time[0]):.4g} s"
             raise placed(error, where) from None
         return found
+
+    def _tyres(self, name: str, which: Any, time: Any, state: Any) -> Tyres | None:
+        """The tyres of a vehicle on the ground where it is in a contact that lasts."""
+        course = self.courses[name]
+        tyres = course.wheels[int(course.wheels_of[which[0]])]
+        if tyres is None:
+            return None
+        tyres, mixed = tyres_where_they_are(tyres, self.ground, state, which)
+        self.mixed[which] |= mixed
+        if self.single and mixed[0]:
+            text = (
+                f"in the contact at {float(time[0]):.3g} s the wheels of {name} stand on ground of "
+                f"different friction, of which the mean, {tyres.friction:.3g}, acts on all four "
+                "while the contact lasts"
+            )
+            self.notices.append(Notice("mixed_friction", text, float(time[0]), (name,)))
+        return tyres
 
     def _go_on(self, contact: Contact, which: Any, time: Any, states: Any, impact: Impact) -> Any:
         """Let both vehicles go on from the motion after the contact; when they do, which is later

@@ -8,7 +8,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..kernels.tyre import wheel_forces
+from ..impact.inputs import part_of
+from ..kernels.tyre import Tyres as Numbers
+from ..kernels.tyre import brake_share, wheel_forces
+from ..quantities.settings import in_si
 from ..travel.areas import Areas
 from ..travel.simulate import MARKS
 from ..vehicle.drag import gravity_on
@@ -36,14 +39,24 @@ class OnTyres(NamedTuple):
         return np.where(self.use[:, None] >= MARKS, self.places, np.nan)
 
 
-def on_tyres(tyres: Tyres, mover: Mover, ground: Ground, state: Any, cases: Any = None) -> OnTyres:
-    """What tyres do at the states of one case, (6, moments), or of those of a batch."""
+class _Wheels(NamedTuple):
+    """The numbers of tyres, where the four wheels are on the vehicle and in the scene [m], (4,
+    ...), and the friction under each.
+    """
+
+    own: Numbers
+    ahead: Any
+    aside: Any
+    px: Any
+    py: Any
+    here: list[Any]
+
+
+def _wheels(tyres: Tyres, ground: Ground, state: Any, take: Any) -> _Wheels:
     count = state.shape[1]
-    take = ground.taker(np.zeros(count, dtype=int) if cases is None else cases)
     own = kernel_numbers({name: take(value) for name, value in tyres.named.items()}, np)
-    x, y, heading, vx, vy, turn = state
+    x, y, heading, *_ = state
     c, s = np.cos(heading), np.sin(heading)
-    forward, left = c * vx + s * vy, c * vy - s * vx
     ahead = np.array([one * own.ahead for one, _ in _WHEELS])
     aside = np.array([two * own.left for _, two in _WHEELS])
     px, py = x + c * ahead - s * aside, y + s * ahead + c * aside
@@ -59,6 +72,38 @@ def on_tyres(tyres: Tyres, mover: Mover, ground: Ground, state: Any, cases: Any 
             aside,
         )
         here = list(areas.friction_at(px, py))
+    return _Wheels(own, ahead, aside, px, py, here)
+
+
+def tyres_where_they_are(tyres: Tyres, ground: Ground, state: Any, cases: Any) -> tuple[Tyres, Any]:
+    """Tyres on the ground that is under their wheels at these states, (6, cases), of one friction:
+    where it is not the same under all four, their mean; and in which cases that is so.
+    """
+    take = ground.taker(cases)
+    own, *_, here = _wheels(tyres, ground, state, take)
+    taken = tyres if ground.single else part_of(tyres, take)
+    rows = np.array([np.broadcast_to(mu, len(cases)) for mu in here])
+    mixed = np.ptp(rows, axis=0) > 0.0
+    friction = np.where(mixed, np.mean(rows, axis=0), rows[0])
+    if np.all(friction == own.friction):
+        return taken, mixed
+    # A brake holds its moment, so that on ice it locks the wheel.
+    locks = [np.minimum(brake_share(lock, own.friction, friction, 1.0), 1.0) for lock in own.locks]
+    numbers = [friction, *(np.broadcast_to(lock, len(cases)) for lock in locks)]
+    if ground.single:
+        numbers = [float(number[0]) for number in numbers]
+    with in_si():
+        return taken.replace(friction=numbers[0], lock=numbers[1:]), mixed
+
+
+def on_tyres(tyres: Tyres, mover: Mover, ground: Ground, state: Any, cases: Any = None) -> OnTyres:
+    """What tyres do at the states of one case, (6, moments), or of those of a batch."""
+    count = state.shape[1]
+    take = ground.taker(np.zeros(count, dtype=int) if cases is None else cases)
+    own, ahead, aside, px, py, here = _wheels(tyres, ground, state, take)
+    _, _, heading, vx, vy, turn = state
+    c, s = np.cos(heading), np.sin(heading)
+    forward, left = c * vx + s * vy, c * vy - s * vx
     reach = np.hypot(own.ahead, own.left)
     speed = np.sqrt(vx * vx + vy * vy + (turn * reach) ** 2)
     moves = speed > _STANDS

@@ -821,6 +821,10 @@ _DRIVEN = (
     "'impacts[0].a.after.course'"
 )
 _DRAGLESS = "a drag does not act during a contact that has a duration; tyres in its place do"
+_MIXED = (
+    "the wheels of a vehicle stand on ground of different friction in a contact that has a "
+    "duration; their mean acts on all four meanwhile"
+)
 _UNDESCRIBED = (
     "two vehicles touch, and no contact says what happens; they are followed as if they passed "
     "through each other"
@@ -846,6 +850,10 @@ def _of_dragless(said: str) -> OutOfRangeWarning:
     return OutOfRangeWarning(said, code="drag_during_contact")
 
 
+def _of_mixed(said: str) -> OutOfRangeWarning:
+    return OutOfRangeWarning(said, code="mixed_friction")
+
+
 def _of_undescribed(said: str) -> OutOfRangeWarning:
     return OutOfRangeWarning(said, code="touch_without_contact")
 
@@ -862,6 +870,7 @@ _OF_FINDING = {
     "driven_through": (_of_driven, _DRIVEN),
     "driven_together": (_of_driven, _DRIVEN),
     "drag_during_contact": (_of_dragless, _DRAGLESS),
+    "mixed_friction": (_of_mixed, _MIXED),
     "touch_without_contact": (_of_undescribed, _UNDESCRIBED),
     "touch_passed_over": (_of_passed_over, _PASSED_OVER),
     "at_deepest": (_of_deepest, _AT_DEEPEST),
@@ -875,6 +884,7 @@ def _warn_of_notices(found: Followed) -> None:
     for cases, made, text in (
         (found.driven, _of_driven, _DRIVEN),
         (found.dragless, _of_dragless, _DRAGLESS),
+        (found.mixed, _of_mixed, _MIXED),
         (found.undescribed, _of_undescribed, _UNDESCRIBED),
         (found.passed_over, _of_passed_over, _PASSED_OVER),
         (found.at_deepest, _of_deepest, _AT_DEEPEST),
