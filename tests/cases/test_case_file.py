@@ -1333,6 +1333,19 @@ def test_the_units_of_a_file_are_those_of_its_answer_unless_the_command_says_oth
     assert "mph" not in said
 
 
+def test_an_answer_by_number_does_not_decide_what_is_refused_as_ambiguous():
+    text = (
+        "answer = 1\n[reconstruct.central]\nmass_a = 1100\nmass_b = 950\nvb = 0.0\n"
+        "va_after = 7.83\nenergy_loss = 106e3\n"
+    )
+    with pytest.raises(CaseError) as refused:
+        answers(read_text(text.encode()))
+    (key, says), (other, why) = refused.value.problems
+    assert (key, other) == ("reconstruct.central", "answer")
+    assert "what decides is va or vb_after" in says
+    assert "needs another number that decides" in why
+
+
 @pytest.mark.parametrize("wrong", ["0", "false", "[]", "{}", '""', '"imperial"'])
 def test_units_of_a_report_that_are_none_are_refused(wrong, tmp_path, capsys):
     file = tmp_path / "case.toml"

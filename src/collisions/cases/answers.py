@@ -373,7 +373,7 @@ def _answered(case: Case, noted: list[str]) -> tuple[Any, Any]:
     """The results of a case, and what a propagation found of them; warnings go to ``noted``."""
     if case.study in ("", "propagate"):
         with _noting(noted) as of_the_case, of_answer(_at(case)):
-            roots = _roots(case.call({}))
+            roots = _all_roots(case)
         results = roots if case.answer is None else roots[case.answer - 1 : case.answer]
         if not results:
             text = (
@@ -455,6 +455,20 @@ def _line(warning: CollisionsWarning) -> str:
 def _at(case: Case) -> int | None:
     """The place of the answer that the file asks for, from 0; None where it asks for none."""
     return None if case.answer is None else case.answer - 1
+
+
+def _all_roots(case: Case) -> tuple[Any, ...]:
+    """Every answer that the solver of a case returns."""
+    try:
+        return _roots(case.call({}))
+    except CaseError as error:
+        if error.code == "ambiguous" and case.answer is not None:
+            text = (
+                "chooses among answers that a solver returns side by side, as speeds does; what is "
+                "refused as ambiguous needs another number that decides, as said above"
+            )
+            error.problems.append(("answer", text))
+        raise
 
 
 def _roots(found: Any) -> tuple[Any, ...]:
