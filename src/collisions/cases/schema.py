@@ -73,7 +73,7 @@ def case_schema() -> Schema:
         "answer": {
             "type": "integer",
             "minimum": 1,
-            "description": "which answer to take of several that the solver returns, counted from 1",
+            "description": "which of several answers of the solver to take, counted from 1",
         },
     }
     return {
