@@ -64,7 +64,9 @@ _OVERSTATED = 10.0  # times the errors that chi-squared shows: then the slope va
 _LEAST_MOVE = 0.1  # standard errors: smaller moves and smaller rises are not compared
 _FLAT_SHARE = 1e-6  # of the greatest slope: directions of less are left alone
 _TO_REFINE, _MOST_REFINED = 25.0, 6  # of chi-squared, and places, for a finer model to start from
-_ELSEWHERE, _ROUNDS_ELSEWHERE = 12, 4  # searches of a finer model alone, and how long at first
+# Searches of a finer model alone; how long at first, and then of those that may lead somewhere:
+# along a kink they would go on for long, and get no further.
+_ELSEWHERE, _ROUNDS_ELSEWHERE, _MORE_ROUNDS = 12, 4, 30
 _POSTERIOR = (
     "`|posterior(model, unknowns, observed, seed=1)|[posterior]`, with `Uniform(low, high)` of "
     "each unknown that has no prior"
@@ -293,7 +295,7 @@ def _with_elsewhere(inputs: _Inputs, problem: Problem, ends: Ends) -> Ends:
     near &= apart > _ONE_BREAK
     if not np.any(near):
         return ends
-    more = minimise(alone, some.points[near])
+    more = minimise(alone, some.points[near], rounds=_MORE_ROUNDS)
     return Ends(*map(np.concatenate, zip(ends, more, strict=True)))
 
 
