@@ -965,3 +965,13 @@ def test_a_restitution_that_is_no_number_is_refused_beside_float32_too(wrong):
     with pytest.raises(col.InputError) as caught:
         planar(**end)
     assert "restitution" in str(caught.value)
+
+
+def test_a_batch_by_a_number_on_which_nothing_depends_comes_back_from_its_record():
+    """Where both bodies are immovable, their places move nothing."""
+    wall = {"mass": math.inf, "yaw_inertia": math.inf}
+    known = {"friction": 0.0, "closing_speed": 1.0, "on_failure": "nan"}
+    bodies = col.Vehicle(**wall), col.Vehicle(**wall, y=np.zeros(3))
+    found = planar(*bodies, normal=0.0, point=(0.0, 0.0), **known)
+    again = col.Impact.from_dict(found.to_dict())
+    assert again.status.tolist() == found.status.tolist()

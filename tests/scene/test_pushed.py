@@ -9,7 +9,7 @@ import pytest
 
 import collisions as col
 from collisions.scene import Contact, Mover, Run, Scene
-from collisions.travel import GRAVITY
+from collisions.travel import GRAVITY, Tyres
 
 LORRY, CAR = (7.5, 2.4), (4.5, 1.8)
 DRIVEN = ("driven_together", "driven_through")
@@ -92,3 +92,69 @@ def test_a_batch_counts_them_after_a_contact_at_a_time_too(at: float | str) -> N
     assert [len(one) for one in said] == [1, 0, 1]
     with pytest.warns(col.OutOfRangeWarning, match="in 2 of 3 cases .* do not part after"):
         behind(0.0, (9.0, 0.0), (drags, 0.7), **given).run()
+
+
+def corners(car: col.Vehicle, size: tuple[float, float]) -> Any:
+    c, s = np.cos(car.heading), np.sin(car.heading)
+    half = 0.5 * np.array([(1, -1), (1, 1), (-1, 1), (-1, -1)]) * size
+    return np.array([car.x, car.y]) + half @ np.array([[c, s], [-s, c]])
+
+
+def overlap(one: Any, other: Any) -> float:
+    """By separating axes."""
+    least = np.inf
+    for this, that in ((one, other), (other, one)):
+        for begin, end in zip(this, np.roll(this, -1, axis=0), strict=True):
+            along = (end - begin) / np.hypot(*(end - begin))
+            least = min(least, -np.min((that - begin) @ np.array([along[1], -along[0]])))
+    return float(least)
+
+
+@pytest.mark.parametrize("y", [0.4, 0.5, 0.6])
+@pytest.mark.parametrize("slowed", [{"drag": 0.7}, {"tyres": Tyres(0.7, 1.0, 2.7, 1.5)}])
+def test_a_lorry_that_goes_into_a_car_it_struck_and_comes_out_again(y: float, slowed: Any) -> None:
+    """However deep they are at rest."""
+    lorry = body(-12.0, 15.0, 20000.0).replace(y=y)
+    car = body(0.0, 0.0).replace(heading=1.57)
+    movers = {
+        "Lorry": Mover(lorry, outline=(12.0, 2.5), drag=0.4),
+        "Car": Mover(car, outline=CAR, **slowed),
+    }
+    hit = Contact("Lorry", "Car", restitution=0.2, friction=0.4, at="touch")
+    run = Scene(movers=movers, contacts=[hit]).run()
+    deep = [
+        overlap(corners(run.at(time)["Lorry"], (12.0, 2.5)), corners(run.at(time)["Car"], CAR))
+        for time in np.linspace(run.times[0], run.end, 60)
+    ]
+    assert max(deep) > deep[0] + 0.8
+    (said,) = driven(run)
+    assert "do not part after their contact, and overlap by" in said
+
+
+@pytest.mark.parametrize("speed", [3.1, 3.2, 4.0])
+def test_a_second_blow_does_not_take_away_the_touch_that_a_first_one_made(speed: float) -> None:
+    """Cars of 4 m in line, of which C and D have met and part slowly, 0.02 m from each other. B
+    strikes C, and 3 ms later A strikes B, which strikes C once more: C runs into D, whether the
+    first blow drove it towards D by less than what counts as a contact again, or by more.
+    """
+    given: dict[str, Any] = {"normal": 0, "model": "linear_central", "restitution": 0.2}
+    first = speed - 0.6 * (speed - 0.8)
+    at_b = 0.8 * 0.05 - 4.0 - speed * 0.55
+    at_a = 0.8 * 0.05 - 8.0 + 0.003 * first - 8.0 * 0.553
+    places = {
+        "A": (at_a, 8.0, 3000),
+        "B": (at_b, speed, 1000),
+        "C": (-1, 2, 1000),
+        "D": (4, 0, 1000),
+    }
+    movers = {
+        name: Mover(col.Vehicle(mass=mass, vx=vx, x=x, y=0, heading=0), outline=(4.0, 1.8))
+        for name, (x, vx, mass) in places.items()
+    }
+    pairs = [("A", "B"), ("B", "C"), ("C", "D")]
+    contacts = [Contact(*pair, at="touch", **given) for pair in pairs]
+    run = Scene(movers=movers, contacts=contacts).run()
+    at = [number for number, pair in enumerate(run.pairs) if pair == ("C", "D")]
+    before = run.at(run.times[at[1]] - 1e-6)
+    assert run.impacts[at[1]].closing_speed == pytest.approx(before["C"].vx - before["D"].vx)
+    assert run.impacts[at[1]].closing_speed > 4.0

@@ -451,6 +451,11 @@ def run_forward(
     if np.any(found & impact.refused):
         velocity = velocity and origin_where_answered(origin, impact.status).contact_velocity
         inputs = _with_velocity(inputs_of(found & np.logical_not(impact.refused)), velocity)
+    if velocity and np.shape(velocity[0]) != np.shape(impact.status):
+        # A number of a vehicle on which nothing depends has more cases.
+        shape = np.shape(impact.status)
+        velocity = read_only(tuple(np.broadcast_to(part, shape).copy() for part in velocity))
+        inputs = _with_velocity(inputs, velocity)
     return found_by(origin, inputs, answer_of(impact), status)
 
 

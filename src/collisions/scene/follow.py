@@ -134,6 +134,9 @@ class _Between:
         self.rule: int | None = None
         self.timed: list[int] = []
         self.apart: Any = np.ones(count, dtype=bool)
+        # Whether they count as apart since an impact that drove them together again, although they
+        # had parted by less than what ends a contact.
+        self.anew: Any = np.zeros(count, dtype=bool)
         # From one to the other along the normal of their last contact; 0 before there was one.
         self.way: Any = np.zeros((2, count))
         # When that was [s].
@@ -574,15 +577,13 @@ class Followed:
         way = pair.side[:, cases]
         beyond = way[0] * (state_b[0] - state_a[0]) + way[1] * (state_b[1] - state_a[1]) < 0.0
         overlap, when = np.where(apart, 0.0, -met.gap), ends.copy()
-        # One that only glances off may be beyond the other too, but not by way of its middle.
-        some = np.flatnonzero((beyond & apart) | ~struck)
-        for share in _SHARES if len(some) else ():
-            begun = pair.met[cases[some]]
-            moments = begun + share * (ends[some] - begun)
-            between, *_ = moving.at(moments, cases[some])
-            deeper = -between.gap > overlap[some]
-            when[some] = np.where(deeper, moments, when[some])
-            overlap[some] = np.maximum(overlap[some], -between.gap)
+        # Two that part, or rest, may have been deeper in between.
+        for share in _SHARES:
+            begun = pair.met[cases]
+            moments = begun + share * (ends - begun)
+            between, *_ = moving.at(moments, cases)
+            when = np.where(-between.gap > overlap, moments, when)
+            overlap = np.maximum(overlap, -between.gap)
         driven = overlap > pair.depth[cases] + pair.allowed[cases]
         self.driven[cases[driven]] = True
         if not self.single or not driven[0]:
@@ -747,17 +748,18 @@ class Followed:
         ends = self._go_on(contact, which, time, states, impact)
         self._keep_touches(pair, which, time)
         pair.due[which], pair.touch[which], pair.apart[which] = np.inf, np.nan, False
-        pair.least[which], pair.begun[which] = _AGAIN, np.nan
+        pair.least[which], pair.begun[which], pair.anew[which] = _AGAIN, np.nan, False
         if contact.duration is not None:
             self._note_drags(contact, which, time)
         if pair.shapes is not None:
-            met, *_ = self._pair(pair).at(time, which)
+            # A contact followed in time crushes both until it ends.
+            met, *_ = self._pair(pair).at(ends, which)
             pair.struck[which] = time
         sign = 1.0 if contact.a == pair.names[0] else -1.0
         for row, part in zip(pair.way, impact.normal, strict=True):
             row[which] = sign * part
         if pair.shapes is not None:
-            pair.meets(which, time, met, pair.way[:, which], _DEEPER)
+            pair.meets(which, ends, met, pair.way[:, which], _DEEPER)
         for other in self._pairs:
             if other is pair or not {contact.a, contact.b} & {*other.names}:
                 continue
@@ -834,7 +836,8 @@ class Followed:
         together = in_contact & (closing >= least) & (before[0] < least)
         driven = together & (gap <= TOUCHING)
         # Outlines that have parted a little meet anew.
-        pair.apart[which[together & ~driven]] = True
+        anew = which[together & ~driven]
+        pair.apart[anew] = pair.anew[anew] = True
         some = which[driven]
         if not len(some):
             return
@@ -872,7 +875,7 @@ class Followed:
             return
         blow = np.where(np.any(pair.way[:, which] != 0.0, axis=0), pair.struck[which], np.nan)
         since = np.fmax(blow, pair.begun[which])
-        some = pair.apart[which] & (since <= time)
+        some = pair.apart[which] & ~pair.anew[which] & (since <= time)
         if some.any():
             cases, until = which[some], time[some]
             parts = first_apart(self._pair(pair), since[some], until, cases, APART)
