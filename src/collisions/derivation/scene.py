@@ -47,7 +47,7 @@ def rests(page: Page, run: Run) -> list[tuple[str, str, str]]:
         try:
             rest = run.rest[name]
         except CollisionsError:
-            rows.append((of, "rest", "none: nothing slows it"))
+            rows.append((of, "rest", f"none: {run._why_no_rest(name)}"))
             continue
         for words, value, kind in (
             ("position x", rest.x, "length"),

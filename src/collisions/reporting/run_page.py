@@ -237,7 +237,7 @@ def _rest(sheet: Sheet, run: Run, name: str) -> str:
     try:
         rest = run.rest[name]
     except CollisionsError:
-        return "none: nothing slows it"
+        return f"none: {run._why_no_rest(name)}"
     if rest.x is None or rest.y is None:
         return "not known"
     return ", ".join(sheet.system.answer(float(part), "length") for part in (rest.x, rest.y))

@@ -67,6 +67,8 @@ _PUSHED = 0.05
 _SHARES = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)
 # A time [s] that is later than any other.
 _LONG = 1e300
+# Two that are pushed on as evenly as this [m/s**2] go on evenly beside each other.
+_NO_PUSH = 1e-8
 # Later than this [s] motion that nothing slows comes together by rounding alone.
 _SOON = 1e3
 # So many moments are looked at for how near two vehicles come that do not touch.
@@ -347,30 +349,57 @@ class Followed:
 
     def _horizon(self, pair: _Between, cases: Any) -> Any:
         """Until when two movers may touch [s]."""
-        one, other = (self.courses[name] for name in pair.names)
+        courses = [self.courses[name] for name in pair.names]
         assert pair.shapes is not None
-        goes_on = one.unslowed(cases) | other.unslowed(cases)
-        if not goes_on.any():
-            return np.maximum(one.known_rests[cases], other.known_rests[cases])
-        ends = np.array([one.rests[cases], other.rests[cases]])
-        never = np.isinf(ends)
-        last = np.where(never, 0.0, ends).max(axis=0)
-        starts = np.array([course.began(cases) for course in (one, other)]).max(axis=0)
-        last = np.maximum(last, starts)
-        unslowed = never.any(axis=0)
-        if not unslowed.any():
-            return last
-        # From then on the relative motion is even: until one has left the other behind.
-        _, state_a, state_b = self._pair(pair).at(last, cases)
-        away, going = state_b[:2] - state_a[:2], state_b[3:5] - state_a[3:5]
-        reach = pair.shapes[0].reach + pair.shapes[1].reach
-        square = going[0] ** 2 + going[1] ** 2
-        dot = away[0] * going[0] + away[1] * going[1]
-        inside = dot * dot - square * (away[0] ** 2 + away[1] ** 2 - reach * reach)
-        with np.errstate(all="ignore"):
-            left = (-dot + np.sqrt(np.maximum(inside, 0.0))) / np.where(square > 0.0, square, 1.0)
-        left = np.where((square > 0.0) & (inside > 0.0), np.maximum(left, 0.0), 0.0)
-        return np.where(unslowed, last + left, last)
+        goes_on = cases
+        if not self.ground.steepest:
+            goes_on = cases[np.any([course.evenly(cases)[1] for course in courses], axis=0)]
+        if len(goes_on):
+            # The one that goes on, as it may down a slope, may come to the other until that rests.
+            for course in courses:
+                course.to_end(goes_on)
+        (since_a, moves_a, push_a), (since_b, moves_b, push_b) = (
+            course.evenly(cases) for course in courses
+        )
+        last = np.maximum(since_a, since_b)
+        some = np.flatnonzero((moves_a | moves_b) & np.isfinite(last))
+        if len(some):
+            # From then on the relative motion is even: until one has left the other behind.
+            _, state_a, state_b = self._pair(pair).at(last[some], cases[some])
+            reach = pair.shapes[0].reach + pair.shapes[1].reach + 2.0 * APART
+            push = (push_b - push_a)[:, some]
+            last[some] += _left_behind(
+                state_b[:2] - state_a[:2], state_b[3:5] - state_a[3:5], push, reach
+            )
+        return last
+
+    def _lost(self, names: Iterable[str], cases: Any) -> Any:
+        """From when on the motion of some movers is not known [s], as far as they were followed."""
+        return np.min([self.courses[name].lost(cases) for name in names], axis=0)
+
+    def _refuse_lost(self, names: Iterable[str], cases: Any, time: Any) -> Any:
+        """Which cases are left in which the motion of some movers is known until a time of each;
+        the others are refused.
+        """
+        good = np.ones(len(cases), dtype=bool)
+        for name in names:
+            course = self.courses[name]
+            course.until(time, cases)
+            lost = course.lost(cases) < time
+            course.refuse_lost(cases[lost])
+            good &= ~lost
+        return good
+
+    def _ends(self, pair: _Between, cases: Any) -> Any:
+        """When both movers rest [s], to which they are followed; infinite where one goes on, and
+        where its motion is not known to its end, until when it is.
+        """
+        courses = [self.courses[name] for name in pair.names]
+        for course in courses:
+            course.to_end(cases)
+        since, moves, _ = zip(*(course.evenly(cases) for course in courses), strict=True)
+        rests = np.where(np.any(moves, axis=0), np.inf, np.max(since, axis=0))
+        return np.minimum(rests, self._lost(pair.names, cases))
 
     # The loop
 
@@ -385,6 +414,7 @@ class Followed:
             if not contact.touches
         }
         alive = self.failed == ""
+        outlined = {name for pair in self._pairs if pair.shapes is not None for name in pair.names}
         for _ in range(_MOST_ROUNDS):
             times, rules = self._next(now, alive, left)
             alive = alive & (self.failed == "")
@@ -397,6 +427,10 @@ class Followed:
                 comes = comes & ~many
             if not comes.any():
                 break
+            if self.ground.steepest:
+                # Up to then others may come to touch.
+                some = np.flatnonzero(comes)
+                comes[some] = self._refuse_lost(outlined, some, times[some])
             now = np.where(comes, times, now)
             for rule in np.unique(rules[comes]).tolist():
                 which = np.flatnonzero(comes & (rules == rule))
@@ -408,6 +442,7 @@ class Followed:
             self._endless(np.flatnonzero(comes), rules)
         self.gather()
         self._check()
+        self.gather()
 
     def to_rest(self, names: Iterable[str]) -> None:
         """Follow some movers to their rest, all at once."""
@@ -502,6 +537,7 @@ class Followed:
             until = limit.copy()
             if np.isinf(limit).any():
                 until = np.minimum(limit, self._horizon(pair, cases))
+            until = np.minimum(until, self._lost(pair.names, cases))
             begin = np.maximum(now[cases], np.where(np.isnan(pair.begun), 0.0, pair.begun)[cases])
             # A contact followed in time goes to its end before another of the two begins.
             for name in pair.names:
@@ -564,8 +600,7 @@ class Followed:
         cases, parts, limit = cases[had], parts[had], limit[had]
         apart = np.isfinite(parts)
         ends, still = np.where(apart, parts, limit), ~apart & np.isinf(limit)
-        rests = [self.courses[name].rests_of(cases[still]) for name in pair.names]
-        ends[still] = np.maximum(*rests)
+        ends[still] = self._ends(pair, cases[still])
         soon, struck = ends <= _SOON, pair.allowed[cases] > _PUSHED
         # What was passed over is looked at for so long, as it may come together ever so slowly.
         ends, apart = np.where(soon, ends, _SOON), apart & soon
@@ -716,6 +751,12 @@ class Followed:
             return
         time = now[which]
         states = {name: self.courses[name].at(time, which) for name in (contact.a, contact.b)}
+        known = self._refuse_lost(states, which, time)
+        if not known.all():
+            which, time = which[known], time[known]
+            states = {name: state[:, known] for name, state in states.items()}
+            if not len(which):
+                return
         normal, point = self._place(pair, contact, which, time, states)
         if contact.touches:
             # Two that do not close where they would push each other are passed over.
@@ -1209,6 +1250,9 @@ class Followed:
         """
         for rule, contact in enumerate(self.contacts):
             absent = np.flatnonzero(~np.any(self.rules == rule, axis=0) & (self.failed == ""))
+            # It may come where the motion of the two is not known any more.
+            known = self._refuse_lost((contact.a, contact.b), absent, np.full(len(absent), np.inf))
+            absent = absent[known]
             if len(absent) and self.single:
                 raise self._not_coming(rule, contact)
             self._fail(absent, "contact_missing")
@@ -1313,6 +1357,28 @@ def _followed(
         rows[4 + row, 0] = getattr(begins, name)
         rows[4 + row, 1] = after[3 + row]
     return np.where(passed, rows, np.nan)
+
+
+def _left_behind(away: Any, going: Any, push: Any, reach: float) -> Any:
+    """How long after these relative places, velocities and even accelerations two may come within
+    ``reach`` of each other [s]; 0 where they do not.
+    """
+    size, square = np.hypot(*push), going[0] ** 2 + going[1] ** 2
+    pushed = size > _NO_PUSH
+    with np.errstate(all="ignore"):
+        dot = away[0] * going[0] + away[1] * going[1]
+        inside = dot * dot - square * (away[0] ** 2 + away[1] ** 2 - reach * reach)
+        even = np.where((square > 0.0) & (inside > 0.0), (np.sqrt(inside) - dot) / square, 0.0)
+        # With an acceleration, by the way along it and by that across it.
+        u, v = push / np.where(pushed, size, 1.0)
+        start, rate = u * away[0] + v * away[1], u * going[0] + v * going[1]
+        root = np.sqrt(np.maximum(rate * rate - 2.0 * size * (start - reach), 0.0))
+        along = np.where(rate > 0.0, 2.0 * (reach - start) / (rate + root), (root - rate) / size)
+        along = np.where(rate * rate < 2.0 * size * (start - reach), 0.0, along)
+        start, rate = u * away[1] - v * away[0], u * going[1] - v * going[0]
+        across = (reach - np.where(rate < 0.0, -start, start)) / np.abs(rate)
+        across = np.where(rate == 0.0, np.where(np.abs(start) <= reach, np.inf, 0.0), across)
+    return np.maximum(np.where(pushed, np.minimum(along, across), even), 0.0)
 
 
 def _carried_back(

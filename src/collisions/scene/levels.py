@@ -232,4 +232,5 @@ def _shares(run: Run, names: Sequence[str]) -> Iterator[tuple[str, float]]:
             yield name, float(np.mean(tyres.locks))
             continue
         taken = run._ground_work(name) - mover.vehicle.mass * GRAVITY * float(climbs.sum())
-        yield name, float(taken / (weight * way * tyres.friction))
+        # What rolls freely takes nothing but rounding.
+        yield name, max(float(taken / (weight * way * tyres.friction)), 0.0)

@@ -6,7 +6,7 @@ States are rows of x, y, heading, vx, vy and yaw rate, with a column for each ca
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -25,8 +25,8 @@ from ..messages.errors import (
 from ..messages.warning import quietly
 from ..quantities.settings import in_si
 from ..quantities.units import Texts, texts_of
-from ..travel.following import ROLLS_ON, Following, reach
-from ..travel.motion import GOES_ON, RESTS
+from ..travel.following import PULLED_ON, Following, reach
+from ..travel.motion import GOES_ON
 from ..travel.simulate import prepared, refuse_one
 from ..vehicle.drag import GRAVITY, gravity_on, in_plan
 from ..vehicle.tyres import Tyres
@@ -41,7 +41,7 @@ _ROLLS = 1e-9
 # seconds. A contact is solved with other last digits alone and in a batch; where a wheel nearly
 # stands or rolls, steps pass them on and they grow to 1e-6 m at the place of rest.
 _LAST_DIGITS = 2.0**-36
-# From the speed over gravity: below it, a drag stops nothing.
+# Below this share of gravity, a drag and a slope together change no speed.
 _LEAST_DRAG = 1e-9
 
 
@@ -55,7 +55,8 @@ class Leg(NamedTuple):
     a motion that nothing slows.
 
     Where the ground slopes, by ``rises``, velocities are along it and places in plan; ``pull`` is
-    the acceleration down it until ``hold``.
+    the acceleration down it until ``hold``, and ``gains`` that after it, along its way, of a case
+    whose drag is less than the slope along it.
     """
 
     which: Any
@@ -69,6 +70,7 @@ class Leg(NamedTuple):
     during: Any = None
     rises: Any = None
     pull: Any = None
+    gains: Any = None
 
     def at(self, time: Any, cases: Any) -> Any:
         """The states of some of its cases, by their places in it, at a time of each."""
@@ -97,6 +99,12 @@ class Leg(NamedTuple):
             reached = pulled(begin, held, pull, rises)
             found[_PLACES] = moved(reached[_PLACES], further * reached[_RATES], rises)
             found[_RATES] = reached[_RATES] * slows
+            gains = self.gains[:, cases]
+            faster = np.flatnonzero(np.any(gains != 0.0, axis=0))
+            if len(faster):
+                found[:, faster] = pulled(
+                    reached[:, faster], after[faster], gains[:, faster], rises[:, faster]
+                )
         if some is not None and len(some):
             assert self.followed is not None
             found[:, some] = self.followed.at(after[some], self.place[cases[some]])
@@ -123,16 +131,13 @@ class Leg(NamedTuple):
                                    self.state[_RATES]])  # fmt: skip
         return pulled(self.state, self.hold, self.pull, self.rises)
 
-    def rests(self, cases: Any, *, known: bool = False) -> Any:
-        """When some of its cases have come to rest [s]; infinite where they do not, or, with
-        ``known``, where they were not followed so far.
+    def rests(self, cases: Any) -> Any:
+        """When some of its cases have come to rest [s]; infinite where they do not. Wheels that
+        neither come to rest nor roll straight on are refused.
         """
         last, place = self.stops[cases].copy(), self.place[cases]
         some = np.flatnonzero(place >= 0)
         if self.followed is not None and len(some):
-            last[some] = np.inf
-            if known:
-                some = some[self.followed.known(place[some])]
             last[some] = self.followed.rests(place[some])
         still = ~np.any(self.state[:, cases][_RATES] != 0.0, axis=0)
         return self.start[cases] + np.where(still & (place < 0), 0.0, self.hold[cases] + last)
@@ -368,41 +373,75 @@ class Course:
         """When each case has come to rest for good [s], to which it is followed for it; infinite
         where it does not.
         """
-        return self._rests(known=False)
-
-    @property
-    def known_rests(self) -> Any:
-        """The same, infinite also where a case was not followed so far."""
-        return self._rests(known=True)
-
-    def _rests(self, *, known: bool) -> Any:
         found = np.empty(self.count)
         for number, leg in enumerate(self.settled()):
             mine = np.flatnonzero(self._present[leg.which] == number)
             if len(mine):
-                found[leg.which[mine]] = leg.rests(mine, known=known)
-                if not known:
-                    self._refuse_steep(leg, mine)
+                found[leg.which[mine]] = leg.rests(mine)
+                self._refuse_unheld(leg, mine)
         return found
 
-    def rests_of(self, cases: Any) -> Any:
-        """The same of some cases, of which alone the motion is followed to its end."""
-        found = np.empty(self.count)
+    def _present_of(self, cases: Any) -> Iterator[tuple[Leg, Any, Any]]:
+        """The legs that some cases are in, which of these cases, and their places in it."""
         for number, leg in enumerate(self.settled()):
             places = self._places[number][cases]
-            mine = places[(places >= 0) & (self._present[cases] == number)]
+            mine = np.flatnonzero((places >= 0) & (self._present[cases] == number))
             if len(mine):
-                found[leg.which[mine]] = leg.rests(mine)
-                self._refuse_steep(leg, mine)
-        return found[cases]
+                yield leg, mine, places[mine]
 
-    def unslowed(self, cases: Any) -> Any:
-        """Whether some cases go on and on, as nothing slows them."""
-        found = np.zeros(self.count, dtype=bool)
-        for leg in self.settled():
-            moves = np.any(leg.state[_RATES] != 0.0, axis=0)
-            found[leg.which] = np.isinf(leg.stops) & (leg.place < 0) & moves
-        return found[cases]
+    def to_end(self, cases: Any) -> None:
+        """Follow some cases to their rest, or until it is known how they go on for good."""
+        self.until(np.full(len(cases), np.inf), cases)
+
+    def until(self, time: Any, cases: Any) -> None:
+        """Follow some cases to a time of each."""
+        reach(self.followed_for(time, cases))
+
+    def lost(self, cases: Any) -> Any:
+        """From when on the motion of some cases is not known [s], as far as they were followed:
+        that of one which does not stay where it stops on a slope. Infinite where it is known.
+        """
+        found = np.full(len(cases), np.inf)
+        for leg, mine, at in self._present_of(cases):
+            ends, place = np.full(len(at), np.inf), leg.place[at]
+            for some, until, _ in self._unheld(leg, at):
+                ends[some] = until[some]
+            if leg.followed is not None:
+                some = np.flatnonzero(place >= 0)
+                ends[some] = leg.hold[at[some]] + leg.followed.lost(place[some])
+            found[mine] = leg.start[at] + ends
+        return found
+
+    def refuse_lost(self, cases: Any) -> None:
+        """Refuse some cases whose motion is asked for beyond what is known of it."""
+        for leg, _, at in self._present_of(cases):
+            place = leg.place[at]
+            if leg.followed is not None:
+                leg.followed.refuse(place[place >= 0])
+            self._refuse_unheld(leg, at)
+
+    def evenly(self, cases: Any) -> tuple[Any, Any, Any]:
+        """From when on some cases rest or move with an even acceleration for good [s], infinite
+        where that is not known; whether they move; and that acceleration in plan [m/s**2], (2,
+        ...).
+        """
+        since, moves = np.zeros(len(cases)), np.zeros(len(cases), dtype=bool)
+        push = np.zeros((2, len(cases)))
+        for leg, mine, at in self._present_of(cases):
+            stops, place = leg.stops[at], leg.place[at]
+            goes = np.isinf(stops) & np.any(leg.begun[_RATES][:, at] != 0.0, axis=0)
+            ends = np.where(np.isfinite(stops), stops, 0.0)
+            some = np.flatnonzero(place >= 0)
+            if leg.gains is not None:
+                push[:, mine] = leg.gains[:, at]
+            if leg.followed is not None and len(some):
+                on, push[:, mine[some]] = leg.followed.evenly(place[some])
+                goes[some] = np.isfinite(on)
+                ends[some] = np.minimum(on, leg.followed.known_rests(place[some]))
+            if leg.rises is not None:
+                push[:, mine] = in_plan(leg.rises[:, at], *push[:, mine])
+            since[mine], moves[mine] = leg.start[at] + leg.hold[at] + ends, goes
+        return since, moves, push
 
     def fastest(self, cases: Any, state: Any, reach: float) -> Any:
         """The most that any point within ``reach`` can move at from a state on; infinite where that
@@ -456,6 +495,8 @@ class Course:
                 speed = np.hypot(begun[3], begun[4])
                 moving = (stops > 0.0) & np.isfinite(stops)
                 slowing = np.where(moving, speed / np.where(moving, stops, 1.0), 0.0)
+                if leg.gains is not None:
+                    pulls = np.maximum(pulls, np.hypot(*leg.gains[:, at]))
                 push[here] = np.maximum(slowing, pulls)
                 turning = np.abs(leg.state[5, at])
                 spin[here] = np.where(moving, turning / np.where(moving, stops, 1.0), 0.0)
@@ -482,6 +523,7 @@ class Course:
         leg = Leg(
             which, start, hold, state, np.zeros(count), none, None, tyres, rises=rises, pull=pull
         )
+        gains = None if pull is None else np.zeros((2, count))
         begun = leg.begun
         speed = np.hypot(begun[3], begun[4])
         still = (speed == 0.0) & (begun[5] == 0.0)
@@ -497,8 +539,13 @@ class Course:
                 place[moves] = np.arange(int(moves.sum()))
                 followed = self._followed(which[moves], begun[:, moves], tyres)
         elif self.mover.drag is not None:
-            stops = self._slides(which, begun, speed, still)
-        return leg._replace(stops=stops, place=place, followed=followed)
+            slowing = self._slowing(which, begun, speed)
+            stops = np.where(slowing > 0.0, speed / np.where(slowing > 0.0, slowing, 1.0), np.inf)
+            stops = np.where(still, 0.0, stops)
+            if gains is not None:
+                along = begun[3:5] / np.where(speed > 0.0, speed, 1.0)
+                gains = np.maximum(-slowing, 0.0) * along
+        return leg._replace(stops=stops, place=place, followed=followed, gains=gains)
 
     def _rolls(self, tyres: Tyres, which: Any, state: Any, speed: Any) -> Any:
         """Whether all wheels roll freely straight on, so that nothing slows the vehicle."""
@@ -509,22 +556,15 @@ class Course:
         level = self.ground.steepest == 0.0
         return free & straight & level & (np.abs(aside) <= _ROLLS * speed) & (speed > 0.0)
 
-    def _slides(self, which: Any, state: Any, speed: Any, still: Any) -> Any:
-        """Time until each case has stopped by drag."""
+    def _slowing(self, which: Any, state: Any, speed: Any) -> Any:
+        """The even deceleration of each case by its drag and the slope along its way [m/s**2]:
+        below 0 where the slope falls by more than the drag.
+        """
         take = self.ground.taker(which)
-        moving = np.where(speed > 0.0, speed, 1.0)
-        rise = (
-            take(self.ground.slope[0]) * state[3] + take(self.ground.slope[1]) * state[4]
-        ) / moving
-        slowing = take(self.mover.drag) + np.where(speed > 0.0, rise, 0.0)
-        spins = (speed == 0.0) & ~still
-        self._refuse(which[spins], "turns on the spot, which a drag does not slow")
-        steep = still & (np.hypot(*map(take, self.ground.slope)) > slowing)
-        self._refuse(which[steep], "stands on a slope that is too steep for its drag")
-        usable = slowing > _LEAST_DRAG
-        pressing = gravity_on(self.ground.rises(take))
-        stops = np.where(usable, speed / (pressing * np.where(usable, slowing, 1.0)), np.inf)
-        return np.where(still, 0.0, stops)
+        rises = self.ground.rises(take)
+        climbs = (rises[0] * state[3] + rises[1] * state[4]) / np.where(speed > 0.0, speed, 1.0)
+        slowing = take(self.mover.drag) + np.where(speed > 0.0, climbs, 0.0)
+        return gravity_on(rises) * np.where(np.abs(slowing) > _LEAST_DRAG, slowing, 0.0)
 
     def _refuse(self, cases: Any, how: str) -> None:
         """Refuse what a drag does not stop."""
@@ -535,15 +575,27 @@ class Course:
             )
         self._fail(cases, "never_stops")
 
-    def _refuse_steep(self, leg: Leg, mine: Any) -> None:
-        """Refuse what slides up a slope and does not hold where it stops."""
-        if self.mover.drag is None or not self.ground.steepest:
+    def _unheld(self, leg: Leg, mine: Any) -> Iterator[tuple[Any, Any, str]]:
+        """Which cases of a leg a drag does not hold where they stand or stop, or does not slow;
+        from when on after its start [s]; and how they do that.
+        """
+        if leg.tyres is not None or self.mover.drag is None or self.fixed:
             return
-        stops = leg.stops[mine]
-        cases = leg.which[mine[(stops > 0.0) & np.isfinite(stops)]]
-        take = self.ground.taker(cases)
+        begun, stops, take = leg.begun[:, mine], leg.stops[mine], self.ground.taker(leg.which[mine])
+        speed, turns = np.hypot(begun[3], begun[4]), begun[5] != 0.0
         steep = np.hypot(*map(take, self.ground.slope)) > take(self.mover.drag)
-        self._refuse(cases[steep], "stops on a slope that is too steep for its drag")
+        for cases, how in (
+            ((speed == 0.0) & turns, "turns on the spot, which a drag does not slow"),
+            ((speed == 0.0) & ~turns & steep, "stands on a slope that is too steep for its drag"),
+            ((speed > 0.0) & np.isfinite(stops) & steep,
+             "stops on a slope that is too steep for its drag"),
+        ):  # fmt: skip
+            yield cases, leg.hold[mine] + np.where(speed > 0.0, stops, 0.0), how
+
+    def _refuse_unheld(self, leg: Leg, mine: Any) -> None:
+        """Refuse what a drag does not hold or slow."""
+        for cases, _, how in self._unheld(leg, mine):
+            self._refuse(leg.which[mine[cases]], how)
 
     def _followed(self, which: Any, state: Any, tyres: Tyres) -> Following:
         """The motion of some cases on tyres."""
@@ -575,8 +627,9 @@ class Course:
             self._fail(which[new], code)
             wrong |= new
 
-        def ended(some: Any, how: Any) -> None:
-            if one and how[0] == GOES_ON:
+        def refused(some: Any, how: Any) -> None:
+            goes_on = (how == GOES_ON) | (how == PULLED_ON)
+            if one and goes_on[0]:
                 why = (
                     "and does not roll straight on either; give the lock that stopped it, or the "
                     "resistance to rolling as a lock such as 0.02"
@@ -588,17 +641,15 @@ class Course:
                     )
                 text = f"{self.name}: it does not come to rest, {why}"
                 raise NoSolutionError(text, code="never_stops")
-            if one and how[0] != ROLLS_ON:
+            if one:
                 try:
                     refuse_one(int(how[0]), made.motion.settings.sloped)
                 except CollisionsError as error:
                     raise placed(error, self.name) from None
-                return
-            self._fail(which[some[how == GOES_ON]], "never_stops")
-            found = np.isin(how, (RESTS, GOES_ON, ROLLS_ON))
-            self._fail(which[some[~found]], "no_convergence")
+            self._fail(which[some[goes_on]], "never_stops")
+            self._fail(which[some[~goes_on]], "no_convergence")
 
-        return Following(made, ended)
+        return Following(made, refused)
 
     def _fail(self, cases: Any, code: str) -> None:
         fresh = cases[self.failed[cases] == ""]
@@ -663,27 +714,33 @@ class Ground:
 
 def no_rest(course: Course) -> MissingInputError:
     """The error for the place of rest of a mover of a single case that does not stop."""
+    why, give = why_no_rest(course)
+    return MissingInputError(
+        f"{course.name} has no place of rest, as {why}; {give}",
+        code="missing_drag",
+        argument=course.name,
+    )
+
+
+def why_no_rest(course: Course) -> tuple[str, str]:
+    """Why a mover of a single case does not stop, and what to give."""
     mover, ground = course.mover, course.ground
     give = "give it `tyres=`, or `drag=`, in its `|Mover|[[mover]]`"
     why = "nothing slows it"
     last = course.settled()[-1]
-    if mover.drag is not None and mover.drag == 0.0:
-        why, give = "a drag of 0 slows nothing", "give a `drag=` above 0, or `tyres=`"
-    elif mover.drag is not None:
+    if mover.drag is not None:
         vx, vy = last.begun[3:5, 0]
         falls = -float(ground.slope[0] * vx + ground.slope[1] * vy) / float(np.hypot(vx, vy))
         why = f"the slope falls by {falls:.3g} along its way, and its drag is {mover.drag:.3g}"
         give = (
             f"give a `drag=` above {falls:.3g}, as that on the level, or `tyres=`, or correct slope"
         )
+        if falls <= 0.0:
+            why, give = "a drag of 0 slows nothing", "give a `drag=` above 0, or `tyres=`"
     elif last.tyres is not None:
         why = "its wheels roll freely straight on"
         give = "give the lock of its `tyres=`, for the resistance to rolling such as 0.02"
-    return MissingInputError(
-        f"{course.name} has no place of rest, as {why}; {give}",
-        code="missing_drag",
-        argument=course.name,
-    )
+    return why, give
 
 
 def body_at(

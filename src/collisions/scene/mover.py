@@ -32,9 +32,10 @@ class Mover(Shown):
     """A vehicle of a scene: its state at the start, its outline, and what slows it on the ground.
 
     With ``tyres`` it moves on four wheels, as ``travel.simulate`` has it. With ``drag`` it slides
-    straight on, and its yaw rate falls as its speed does. With neither it moves on unslowed; only
-    to ask for its place of rest is then an error. A vehicle that stands on braked wheels stands
-    until it is struck. A barrier is a mover that stays.
+    straight on, and its yaw rate falls as its speed does; down a slope that is steeper than the
+    drag it gains speed evenly, at an even yaw rate. With neither it moves on unslowed, also on a
+    slope; only to ask for its place of rest is then an error. A vehicle that stands on braked
+    wheels stands until it is struck. A barrier is a mover that stays.
 
     Parameters
     ----------
@@ -48,7 +49,7 @@ class Mover(Shown):
         The four wheels, until a contact gives others by ``tyres_after``.
     drag : float, str, Quantity or array [-], optional
         Deceleration over gravity on the level, in place of tyres: as a fraction or with a unit of
-        acceleration.
+        acceleration. 0 is a vehicle on the ground that nothing but a slope slows or speeds up.
 
     Raises
     ------

@@ -29,7 +29,7 @@ from ..vehicle.vehicle import NAMES, Vehicle, vehicle_of
 from .follow import Followed, Hit, Notice
 from .ledger import on_drag, on_slope, on_tyres
 from .marks import WHEELS
-from .motion import STATE, Ground, body_at, no_rest
+from .motion import STATE, Ground, body_at, no_rest, why_no_rest
 from .scene import Scene
 
 # Moments of a track between two contacts.
@@ -525,6 +525,10 @@ class Run(Frozen, Summarized):
         state[:3] += np.where(np.isfinite(rests), 0.0, np.nan)
         state[3:] = 0.0
         return self._body(name, state)
+
+    def _why_no_rest(self, name: str) -> str:
+        """Why a vehicle has no place of rest, in words."""
+        return why_no_rest(self._followed.courses[name])[0]
 
     def _bounds(self) -> Any:
         """Start, times of impacts and end, (bounds, cases)."""

@@ -65,7 +65,9 @@ class Scene(Shown):
         While a contact with a duration lasts it pulls both vehicles alike, by 0.1 m/s in 0.1 s on a
         slope of 10 %; a contact without one takes no time. A mover with a drag goes straight on
         also across a slope, which would bend the way of a sliding one: by 1 m of 14 m at 10 %. Give
-        it tyres there.
+        it tyres there. What gains speed down a slope is followed as far as its contacts need it,
+        and what stops on a slope that it would roll back down is refused if that comes before its
+        contact.
     order : list of pairs of names, optional
         The order of the contacts that an account claims, such as ``[("A", "B"), ("B", "C")]``. A
         case that goes otherwise is refused, with the order that it takes.

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..vehicle.drag import in_plan
-from .motion import GOES_ON, IN_TIME, RESTS, STATE, Followed, Motion, between, follow
+from .motion import GOES_ON, IN_TIME, RESTS, STATE, Followed, Motion, between, follow, gone_on
 from .simulate import Prepared
 
 # Cases that are followed together: few calls of numpy, and memory that is kept small.
@@ -17,8 +17,10 @@ _BLOCK = 2048
 # Motions are followed on by this much more [s] than was asked for, all together, and once one was
 # asked for up to this time, to their ends: most contacts come within a moment of another.
 _AHEAD, _TO_THE_END = 0.3, 0.6
-# Found for a case beside what ``follow`` finds: nothing slows it, and it rolls straight on.
-ROLLS_ON = 4
+# Found for a case beside what ``follow`` finds: nothing slows it, and it rolls straight on; or it
+# goes on under forces that stay as they are.
+ROLLS_ON, PULLED_ON = 4, 5
+_KNOWN_ON = (ROLLS_ON, PULLED_ON)
 # Longer than anything takes that comes to rest [s].
 _FOR_EVER = 1e4
 # What nothing slows goes straight on where it is not sped up or turned either, in units of gravity,
@@ -38,13 +40,14 @@ class _Piece(NamedTuple):
 
 
 class Following:
-    """Cases in motion on their tyres, by their places in ``made``; ``ended`` is told which of them
-    came to their end, and how.
+    """Cases in motion on their tyres, by their places in ``made``; ``refused`` is told of which of
+    them the rest is asked for, though they have none, or the motion beyond what is known of it; and
+    how they ended.
     """
 
-    def __init__(self, made: Prepared, ended: Callable[[Any, Any], None]) -> None:
+    def __init__(self, made: Prepared, refused: Callable[[Any, Any], None]) -> None:
         self._motion: Motion = made.motion
-        self._tell = ended
+        self._tell = refused
         self.count = made.motion.start.shape[1]
         self._x, self._y, self._second, self._length, _ = made.units
         self._spin = made.motion.ground[17]
@@ -53,6 +56,7 @@ class Following:
         self._ended: Any = np.full(self.count, IN_TIME)
         self._reached: Any = np.zeros(self.count)
         self._state: Any = np.zeros((STATE, self.count))
+        self._push: Any = np.zeros((2, self.count))
         self._left: Any = np.zeros(self.count, dtype=bool)
         self._pieces: list[_Piece] = []
         # The steps of a single case, and their times.
@@ -64,7 +68,7 @@ class Following:
 
     def at(self, time: Any, cases: Any) -> Any:
         """Places, heading and velocities of some cases, (6, ...), at a time of each from the start
-        [s]; NaN beyond the end of one that neither comes to rest nor rolls straight on.
+        [s]; NaN beyond what is known of one, as ``lost`` has it.
         """
         scaled = time / self._second[cases]
         self._reach(scaled, cases)
@@ -91,22 +95,22 @@ class Following:
             self._reach(np.array([time]), np.zeros(1, dtype=int))
         steps, after = self._steps, bisect_right(self._times, time)
         x, y = float(self._x[0]), float(self._y[0])
-        if after >= len(steps):
-            last, px, py, heading, vx, vy, *_ = steps[-1]
-            if self._ended[0] == ROLLS_ON:
-                px, py = px + (time - last) * vx, py + (time - last) * vy
-            elif self._ended[0] == RESTS:
-                vx = vy = 0.0
-            else:
-                return np.full((6, 1), np.nan)
-            rate = length / second
-            px, py = self._in_plan(px, py)
-            state = [x + length * px, y + length * py, heading, rate * vx, rate * vy, 0.0]
-            return np.array([state]).T
-        before, row = steps[max(after - 1, 0)], steps[after]
-        took = row[0] - before[0]
-        share = (time - before[0]) / took if took > 0.0 else 0.0
-        (px, py, heading), (vx, vy, turning) = between(before, row, share, self._turns)
+        how, turning = int(self._ended[0]), 0.0
+        if after < len(steps):
+            before, row = steps[max(after - 1, 0)], steps[after]
+            took = row[0] - before[0]
+            share = (time - before[0]) / took if took > 0.0 else 0.0
+            (px, py, heading), (vx, vy, turning) = between(before, row, share, self._turns)
+        elif not steps or how not in (RESTS, *_KNOWN_ON):
+            return np.full((6, 1), np.nan)
+        elif how in _KNOWN_ON:
+            last = _evenly(steps[-1], how == PULLED_ON)
+            places, rates = gone_on(last, time - last[0], self._turns)
+            (px, py, heading), (vx, vy, turning) = places, rates
+            turning *= self._turns
+        else:
+            _, px, py, heading, *_ = steps[-1]
+            vx = vy = 0.0
         rate = length / second
         px, py = self._in_plan(px, py)
         state = [x + length * px, y + length * py, heading, rate * vx, rate * vy, turning / second]
@@ -124,13 +128,50 @@ class Following:
         self._left[cases] = True
 
     def rests(self, cases: Any) -> Any:
-        """When some cases rest [s], which are followed to their end for it."""
+        """When some cases rest [s], which are followed to their end for it; infinite for those that
+        roll straight on. Those that have no rest otherwise are refused.
+        """
         ends = self.ends(cases)
         return np.where(self._ended[cases] == RESTS, ends, np.inf)
 
     def ends(self, cases: Any) -> Any:
-        """When some cases rest or roll straight on [s], which are followed to that."""
+        """When some cases rest or roll straight on [s], which are followed to that; others are
+        refused.
+        """
         self._reach(np.full(len(cases), np.inf), cases)
+        self.refuse(cases)
+        return self._times_reached(cases)
+
+    def refuse(self, cases: Any) -> None:
+        """Tell of those that were followed to their end and have no rest, though they do not roll
+        straight on.
+        """
+        how = self._ended[cases]
+        none = ~np.isin(how, (RESTS, ROLLS_ON, IN_TIME))
+        if none.any():
+            self._tell(cases[none], how[none])
+
+    def known_rests(self, cases: Any) -> Any:
+        """When some cases rest [s]; infinite where they do not, or were not followed so far."""
+        rests = self._ended[cases] == RESTS
+        return np.where(rests, self._times_reached(cases), np.inf)
+
+    def lost(self, cases: Any) -> Any:
+        """From when on the motion of some cases is not known [s], as that of one which does not
+        stay where it stops on a slope; infinite where it is, or they were not followed so far.
+        """
+        known = np.isin(self._ended[cases], (IN_TIME, RESTS, *_KNOWN_ON))
+        return np.where(known, np.inf, self._times_reached(cases))
+
+    def evenly(self, cases: Any) -> tuple[Any, Any]:
+        """From when on some cases go on with an even acceleration for good [s], and that [m/s**2],
+        (2, ...), along the ground; infinite and 0 where they do not, or were not followed so far.
+        """
+        on = np.isin(self._ended[cases], _KNOWN_ON)
+        since = np.where(on, self._times_reached(cases), np.inf)
+        return since, self._push[:, cases] * self._length[cases] / self._second[cases] ** 2
+
+    def _times_reached(self, cases: Any) -> Any:
         # What cannot be followed has no number.
         with np.errstate(all="ignore"):
             return self._reached[cases] * self._second[cases]
@@ -148,10 +189,6 @@ class Following:
             found.append(np.where(place >= 0, moments, 0.0))
         with np.errstate(all="ignore"):
             return np.sort(np.concatenate(found), axis=0) * self._second[cases]
-
-    def known(self, cases: Any) -> Any:
-        """Whether some cases have been followed to their end."""
-        return self._ended[cases] != IN_TIME
 
     def _all_pieces(self) -> list[_Piece]:
         """All steps; those of a single case as one piece."""
@@ -195,9 +232,12 @@ class Following:
         last = np.cumsum(counts) - 1
         answered = counts > 0
         ends = np.where(answered, whole[0, last] if whole.shape[1] else 0.0, 0.0)
-        ended[(ended == IN_TIME) & (ends >= _FOR_EVER / self._second[which])] = GOES_ON
         goes = np.flatnonzero((ended == GOES_ON) & answered)
-        ended[goes[_rolls_on(whole[:, last[goes]])]] = ROLLS_ON
+        rows = whole[:, last[goes]]
+        moves, rolls = np.any(rows[4:7] != 0.0, axis=0), _rolls_on(rows)
+        ended[goes[moves]], ended[goes[rolls]] = PULLED_ON, ROLLS_ON
+        self._push[:, which[goes]] = np.where(moves & ~rolls, rows[10:12], 0.0)
+        ended[(ended == IN_TIME) & (ends >= _FOR_EVER / self._second[which])] = GOES_ON
         self._state[:, which], self._ended[which] = state, ended
         self._reached[which] = ends
         if self.count == 1:
@@ -208,9 +248,6 @@ class Following:
             place = np.full(self.count, -1)
             place[which[answered]] = np.flatnonzero(answered)
             self._pieces.append(_Piece(place, last - counts + 1, last, whole))
-        done = ended != IN_TIME
-        if done.any():
-            self._tell(which[done], ended[done])
 
     def _within(self, piece: _Piece, time: Any, cases: Any, place: Any) -> Any:
         """The states of some cases in a piece, at or after its begin."""
@@ -228,12 +265,17 @@ class Following:
         (px, py, heading), rates = between(before, after, share, self._spin[cases])
         length, second = self._length[cases], self._second[cases]
         how = self._ended[cases]
-        beyond = np.where(ended & (how != RESTS) & (how != ROLLS_ON), np.nan, 0.0)
-        # At rest, or rolling straight on from the last row.
-        rolls = np.where(how == ROLLS_ON, [before[4], before[5], 0.0 * before[6]], 0.0 * rates)
-        rates = np.where(ended, rolls + beyond, rates)
-        passed = np.where(ended & (how == ROLLS_ON), time - before[0], 0.0)
-        px, py = px + passed * before[4], py + passed * before[5]
+        known = np.isin(how, (RESTS, *_KNOWN_ON))
+        beyond = np.where(ended & ~known, np.nan, 0.0)
+        # At rest, or going on from the last row.
+        rates = np.where(ended, 0.0 * rates + beyond, rates)
+        on = np.flatnonzero(ended & np.isin(how, _KNOWN_ON))
+        if len(on):
+            row, spin = before[:, on], self._spin[cases[on]]
+            last = _evenly(row, how[on] == PULLED_ON)
+            places, going = gone_on(last, time[on] - row[0], spin)
+            px[on], py[on], heading[on] = places
+            rates[:, on] = [*going[:2], going[2] * spin]
         if self._rises is not None:
             px, py = in_plan(self._rises[:, cases], px, py)
         return np.array(
@@ -246,6 +288,14 @@ class Following:
                 rates[2] / second,
             ]
         )
+
+
+def _evenly(row: Any, pulled: Any) -> list[Any]:
+    """The state from which cases go on evenly, from their last row: under its forces, or where they
+    are not ``pulled``, straight on.
+    """
+    share = 1.0 * pulled
+    return [*row[:6], *(share * part for part in (row[6], *row[10:]))]
 
 
 class _Part(NamedTuple):

@@ -569,20 +569,26 @@ def _several(
         kept.append((np.full(rows.shape[1], one), rows))
 
 
-def went_on(rows: Any, until: float, spin: float) -> Any:
-    """The rows of a case that nothing slows, followed until a time: its forces stay as they are,
-    and it slides, rolls or spins on under them.
+def gone_on(state: Any, takes: Any, spin: Any) -> tuple[list[Any], list[Any]]:
+    """Place and heading, and their rates, of cases that nothing slows, a while after a state of 10
+    rows: the forces stay as they are, and they slide, roll or spin on under them.
     """
-    time, x, y, heading, vx, vy, turn = rows[:7, -1]
-    ax, ay, yaw = rows[10:, -1]
-    takes = until - time
-    if not takes > 0.0:
-        return rows
+    _, x, y, heading, vx, vy, turn, ax, ay, yaw = state
     half = 0.5 * takes
     after = [vx + takes * ax, vy + takes * ay, turn + takes * yaw]
     place = [x + half * (vx + after[0]), y + half * (vy + after[1])]
     place.append(heading + half * (turn + after[2]) * spin)
-    row = np.array([[until, *place, *after, ax, ay, yaw, ax, ay, yaw]]).T
+    return place, after
+
+
+def went_on(rows: Any, until: float, spin: float) -> Any:
+    """The rows of a case that nothing slows, followed until a time."""
+    takes = until - rows[0, -1]
+    if not takes > 0.0:
+        return rows
+    forces = rows[10:, -1]
+    place, after = gone_on([*rows[:7, -1], *forces], takes, spin)
+    row = np.array([[until, *place, *after, *forces, *forces]]).T
     return np.concatenate([rows, row], axis=1)
 
 
