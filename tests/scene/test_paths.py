@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import ast
+import re
 from typing import Any
 
 import numpy as np
@@ -117,6 +119,31 @@ def test_a_shared_name_needs_paths_that_are_and_of_one_kind() -> None:
     ]
     assert "shared['g'] has no 'A.tyres.frction'; near it are A.tyres.friction" in str(caught.value)
     assert "shared['h'] names inputs of several kinds: A.vx [m/s], A.mass [kg]" in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    "second", [("B.tyres.friction", "A.tyres.friction"), ("B.tyres.friction",)]
+)
+def test_an_input_under_two_shared_names_is_refused_with_the_one_to_write(
+    second: tuple[str, ...],
+) -> None:
+    """A change of either name would leave the other's numbers different."""
+    scene = crash()
+    movers = {
+        name: Mover(mover.vehicle, outline=mover.outline, tyres=Tyres(0.7, 1, 2.7, 1.5))
+        for name, mover in scene.movers.items()
+    }
+    surfaces = [([(20, -5), (30, -5), (30, 5)], 0.7)]
+    given = {"movers": movers, "contacts": (), "surfaces": surfaces}
+    groups = {"g": ("surfaces[0]", "B.tyres.friction"), "h": second}
+    with pytest.raises(col.InputError, match=r"'B.tyres.friction' under 'g' and under 'h'") as told:
+        Scene(**given, shared=groups)
+    assert (told.value.code, told.value.argument) == ("bad_combination", "shared")
+    (written,) = re.findall(r"shared=(\{.*\})", str(told.value))
+    merged = ast.literal_eval(written)
+    assert set(merged["g"]) == {*groups["g"], *groups["h"]}
+    once = Scene(**given, shared=merged).replace({"g": 0.4})
+    assert {once.surfaces[0][1], once.movers["B"].tyres.friction} == {0.4}
 
 
 @pytest.mark.filterwarnings("ignore:.*two vehicles do not part:collisions.OutOfRangeWarning")

@@ -73,12 +73,25 @@ def inputs_of(scene: Scene) -> dict[str, str]:
 
 
 def check_shared(scene: Scene) -> None:
-    """Refuse shared names whose paths are none, of several kinds, or of different numbers."""
+    """Refuse shared names whose paths are none, of several kinds, of different numbers, or under
+    another name too.
+    """
     reader = ArgumentReader()
+    names: dict[str, str] = {}
     known = inputs_of(scene)
     numbers = dict(scene._numbers())
     for name, paths in scene.shared.items():
         for path in paths:
+            if names.setdefault(path, name) != name:
+                first = names[path]
+                every = tuple(dict.fromkeys((*scene.shared[first], *paths)))
+                text = (
+                    f"shared has {path!r} under {first!r} and under {name!r}, so that all of both "
+                    "are one and the same number; put them under one name, as "
+                    f"`|shared={{{first!r}: {every!r}}}|{first!r} = {list(every)!r}`"
+                )
+                reader.refuse(InputError(text, code="bad_combination", argument="shared"))
+                break
             if path not in known:
                 reader.refuse(no_path(path, known, f"shared[{name!r}]", _meant(scene, path)))
         if len({known[path] for path in paths if path in known}) > 1:

@@ -74,7 +74,7 @@ class Scene(Shown):
     shared : dict of tuples of str, optional
         By a new name, no path, the inputs that are one and the same, such as ``{"ground":
         ("Camry.tyres.friction", "Civic.tyres.friction")}``: the same number is stated at each, and
-        a change of one is a change of all.
+        a change of one is a change of all. No input is under two names.
 
     Raises
     ------
