@@ -193,13 +193,13 @@ CONTACT_REFUSALS = [
         {"at": "touch", "delay": 0.02, "normal": 0, "point": (1, 0)},
         InputError,
         "bad_combination",
-        "so the impulse acts at first touch; leave delay out",
+        "normal and point are given, so the impulse acts at first touch; leave delay out",
     ),
     (
         {"at": "touch", "depth": 0.1, "normal": 0, "model": "oblique_central"},
         InputError,
         "bad_combination",
-        "so the impulse acts at first touch; leave depth out",
+        "normal is given, and the model has no point, so the impulse acts at first touch; leave",
     ),
     (
         {"plane": "crossings", "normal": 0},
@@ -437,7 +437,12 @@ SCENE_REFUSALS = [
     ),
     ({"slope": (0.1,)}, ShapeError, "bad_shape", "slope must be a pair"),
     ({"slope": (1e200, 0.0)}, InputError, "out_of_range", "slope[0] must be between -100 and 100"),
-    ({"surfaces": [(AREA, -0.3)]}, InputError, "bad_friction", "surfaces[0] must be >= 0, got"),
+    (
+        {"surfaces": [(AREA, -0.3)]},
+        InputError,
+        "bad_friction",
+        "the friction of surfaces[0] must be >= 0, got -0.3; it acts against the sliding whichever",
+    ),
     # The order.
     (
         {"order": "AB"},

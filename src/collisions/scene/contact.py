@@ -386,10 +386,10 @@ def _check(reader: ArgumentReader, found: Mapping[str, Any], rules: Mapping[str,
         if not isinstance(found["at"], str):
             refuse(f"{name} is counted from first touch; write `at='touch'` with it", name)
         elif whole:
-            refuse(
-                f"normal and point are given, so the impulse acts at first touch; leave {name} out",
-                name,
-            )
+            known = "normal and point are given"
+            if model in _NO_POINT:
+                known = "normal is given, and the model has no point"
+            refuse(f"{known}, so the impulse acts at first touch; leave {name} out", name)
     if (
         isinstance(found["plane"], str)
         and found["plane"] == "crossings"

@@ -51,7 +51,8 @@ def read_areas(reader: ArgumentReader, surfaces: Any) -> list[tuple[tuple[Place,
             text = f"surfaces[{i}] {wrong}; {_AROUND}"
             reader.refuse(InputError(text, code="bad_outline", argument="surfaces"))
             continue
-        areas.append((places, read_friction(reader, area[1], f"surfaces[{i}]")))
+        name = f"surfaces[{i}]"
+        areas.append((places, read_friction(reader, area[1], name, f"the friction of {name}")))
     return areas
 
 

@@ -79,15 +79,20 @@ def read_drag(reader: ArgumentReader, value: Any, name: str) -> Any:
     return read
 
 
-def read_friction(reader: ArgumentReader, value: Any, name: str) -> Any:
-    """The friction of locked tyres, >= 0 and finite."""
+def read_friction(reader: ArgumentReader, value: Any, name: str, label: str = "") -> Any:
+    """The friction of locked tyres, >= 0 and finite; with a ``label`` of it, if its name is not
+    that of a friction.
+    """
     wrong = len(reader.problems)
     read = one_value(reader, value, "", name, UNCHECKED)
     if len(reader.problems) > wrong:
         return read
     if isinstance(read, float) and not math.isfinite(read):
         return reader.refuse(must_be(name, "finite", value, code="not_finite"))
-    read = at_least_zero(reader, read, value, name, "bad_friction", "its direction is worked out")
+    if isinstance(read, float) and read < 0.0:
+        why = "; it acts against the sliding whichever way that goes, so give its magnitude"
+        error = must_be(label or name, ">= 0", value, why, code="bad_friction", named=name)
+        return reader.refuse(error)
     warn_if_large(value, read, HIGHEST_DRAG, name, "a fraction of the load", "%")
     return read
 
