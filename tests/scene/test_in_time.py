@@ -150,15 +150,48 @@ def test_cases_of_a_batch_equal_single_runs() -> None:
     base = three_cars().scene
     hits = [contact.replace(model=None, duration=0.1) for contact in base.contacts]
     scene = Scene(movers=base.movers, contacts=hits, surfaces=base.surfaces)
-    batch = scene.replace(
-        {"Camry.vx": np.array([17.0, 17.6, 18.4]), "contacts[0].duration": 0.09}
-    ).run()
+    given = {"Camry.vx": np.array([17.0, 17.6, 18.4]), "contacts[0].duration": 0.09}
+    with pytest.warns(col.OutOfRangeWarning):
+        batch = scene.replace(given).run()
     assert list(batch.status) == ["ok"] * 3
     for case in range(3):
         alone = batch.case(case)
         for name in base.movers:
             assert batch.rest[name].x[case] == pytest.approx(alone.rest[name].x, abs=1e-9)
             assert batch.rest[name].y[case] == pytest.approx(alone.rest[name].y, abs=1e-9)
+
+
+@pytest.mark.parametrize("at", [0.0, "touch"])
+def test_while_a_contact_lasts_the_cars_move_as_its_curves_say(at) -> None:
+    """From first touch, or from maximum engagement on; the ways are sums of the velocities."""
+    movers = {
+        "A": Mover(car(x=-2.2 if at == 0.0 else -6.0, vx=14.0), outline=(4.4, 1.8), tyres=WHEELS),
+        "B": Mover(
+            car(x=1.0, y=-0.5, vy=3.0, heading=0.5 * math.pi), outline=(4.4, 1.8), tyres=WHEELS
+        ),
+    }
+    place = {"normal": 0.0, "point": (0.0, 0.2)} if at == 0.0 else {}
+    hit = Contact("A", "B", at=at, **CONTACT, **place)
+    run = Scene(movers=movers, contacts=[hit]).run()
+    impact, begins = run.impacts[0], run.times[0]
+    curves = impact.pulse
+    # At time 0 the states are those of maximum engagement.
+    engaged = float(curves.time[np.argmax(curves.crush)]) if at == 0.0 else 0.0
+    for name, label, side in (("A", "a", impact.a), ("B", "b", impact.b)):
+        turned = side.before.heading
+        ahead, left = (getattr(curves, f"delta_v_{way}_{label}") for way in ("forward", "left"))
+        vx = side.before.vx + math.cos(turned) * ahead - math.sin(turned) * left
+        vy = side.before.vy + math.sin(turned) * ahead + math.cos(turned) * left
+        past = curves.time >= engaged
+        time, rate = curves.time[past], getattr(curves, f"yaw_rate_{label}")[past]
+        seen = [run.at(begins + moment - engaged)[name] for moment in time]
+        assert [one.vx for one in seen] == pytest.approx(vx[past], abs=0.01)
+        assert [one.vy for one in seen] == pytest.approx(vy[past], abs=0.01)
+        assert [one.yaw_rate for one in seen] == pytest.approx(rate, abs=0.01)
+        for part, speed in (("x", vx[past]), ("y", vy[past]), ("heading", rate)):
+            way = np.cumsum(0.5 * np.diff(time) * (speed[1:] + speed[:-1]))
+            found = np.array([getattr(one, part) for one in seen])
+            assert found[1:] - found[0] == pytest.approx(way, abs=2e-3)
 
 
 def test_a_mirrored_scene_has_a_mirrored_answer() -> None:

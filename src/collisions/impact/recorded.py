@@ -11,7 +11,7 @@ what the centre of mass gains is turned back by the yaw of its moment (A. Marine
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import partial
 from typing import Any, Literal, NamedTuple, TypeAlias, get_args
 
@@ -185,26 +185,12 @@ def recorded(
                 argument=name,
             )
     found = np.full((2, *at.shape), math.nan)
-    answered = np.flatnonzero(np.ravel(np.asarray(answer.status) <= Status.ENERGY_GAIN))
-
-    def cut(value: Any, cases: Any) -> Any:
-        if not isinstance(value, np.ndarray):
-            return value
-        return np.broadcast_to(value, shape).reshape(-1)[cases].astype(np.float64)
-
-    length = 1 if len(answered) <= _FEW else _BLOCK
-    for start in range(0, len(answered), length):
-        cases = answered[start : start + length]
-        if length == 1:
-            followed = _followed_alone(inputs, partial(_one, case=int(cases[0]), cut=cut))
-            if followed is None:
-                continue
-            motions, engaged = followed[0][..., np.newaxis], np.array([followed[1]])
-        else:
-            motions, engaged = _followed_together(inputs, partial(cut, cases=cases), len(cases))
+    for cases, motions, engaged in followed(inputs, answer):
         curve = curve_of(motions, label, engaged)
-        where = cut(place[0], cases), cut(place[1], cases)
-        curves = readings(curve, cut(body.heading, cases), where, axes, from_start)
+        cut = partial(_cut, cases=cases, shape=shape)
+        curves = readings(
+            curve, cut(body.heading), (cut(place[0]), cut(place[1])), axes, from_start
+        )
         for i, case in enumerate(cases):
             for kept, values in zip(found, curves, strict=True):
                 kept[:, case] = np.interp(at[:, case], curve.time[:, i], values[:, i])
@@ -217,8 +203,33 @@ def recorded(
     return forward, left
 
 
-def _one(value: Any, case: int, cut: Callable[..., Any]) -> Any:
-    return float(cut(value, [case])[0]) if isinstance(value, np.ndarray) else value
+def followed(inputs: Inputs, answer: Passed) -> Iterator[tuple[Any, Any, Any]]:
+    """Some answered cases after the other, by their places among all: which, their motions while
+    the contact lasts, and when they were engaged the most.
+    """
+    shape = np.shape(answer.status)
+    answered = np.flatnonzero(np.ravel(np.asarray(answer.status) <= Status.ENERGY_GAIN))
+    length = 1 if len(answered) <= _FEW else _BLOCK
+    for start in range(0, len(answered), length):
+        cases = answered[start : start + length]
+        cut = partial(_cut, cases=cases, shape=shape)
+        if length > 1:
+            yield cases, *_followed_together(inputs, cut, len(cases))
+            continue
+        alone = _followed_alone(inputs, partial(_one, cut=cut))
+        if alone is not None:
+            yield cases, alone[0][..., np.newaxis], np.array([alone[1]])
+
+
+def _cut(value: Any, cases: Any, shape: tuple[int, ...]) -> Any:
+    """The numbers of some cases, by their places among all."""
+    if not isinstance(value, np.ndarray):
+        return value
+    return np.broadcast_to(value, shape).reshape(-1)[cases].astype(np.float64)
+
+
+def _one(value: Any, cut: Callable[[Any], Any]) -> Any:
+    return float(cut(value)[0]) if isinstance(value, np.ndarray) else value
 
 
 def _followed_alone(inputs: Inputs, cut: Callable[[Any], Any]) -> Any:

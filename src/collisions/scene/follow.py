@@ -30,6 +30,7 @@ from ..vehicle.tyres import Tyres
 from ..vehicle.vehicle import needed
 from .contact import IN_TIME, USUAL_DELAY, Contact
 from .ledger import tyres_where_they_are
+from .meanwhile import During, InTime
 from .motion import Course, Ground, body_at, follow_on, moved
 from .mover import Mover
 from .touching import (
@@ -1176,28 +1177,31 @@ class Followed:
             hold = np.where(passed, lasts, hold)
             lasting = np.where(passed, whole, lasting)
         ends = np.where(passed, time + hold, time)
-        for label, name, side in (
-            ("a", contact.a, impact.a),
-            ("b", contact.b, impact.b),
-        ):
+        sides = {"a": (contact.a, impact.a), "b": (contact.b, impact.b)}
+        afters, tables = {}, {}
+        for label, (name, side) in sides.items():
             after, state = side.after, states[name].copy()
             for row, value in zip((3, 4, 5), (after.vx, after.vy, after.yaw_rate), strict=True):
                 state[row] = value
-            during = None
             if way is not None and passed.any():
                 begins = (
                     side.before
                     if impact.inputs.geometry == "first_contact"
                     else (side.at_compression)
                 )
-                during = _followed(states[name], begins, way.moved[label], hold, state, passed)
+                table = _ends(states[name], begins, way.moved[label], hold, state, passed)
                 rises = self.ground.rises(self.ground.taker(which))
-                back = during[1:4, 1] - during[1:4, 0] - hold * state[3:]
-                state[:3] = np.where(passed, moved(during[1:4, 0], back, rises), state[:3])
+                back = table[1:4, 1] - table[1:4, 0] - hold * state[3:]
+                state[:3] = np.where(passed, moved(table[1:4, 0], back, rises), state[:3])
                 self.lasts[name][which] = np.where(passed, ends, self.lasts[name][which])
-            self.courses[name].turn(
-                which, time, hold, state, contact.tyres_after.get(name), during, lasting
-            )
+                tables[label] = table
+            afters[label] = state
+        in_time = InTime(impact, tables) if tables else None
+        every = np.arange(len(which))
+        for label, (name, _) in sides.items():
+            during = None if in_time is None else During(in_time, label, every)
+            tyres = contact.tyres_after.get(name)
+            self.courses[name].turn(which, time, hold, afters[label], tyres, during, lasting)
         return ends
 
     # What the scene contradicts
@@ -1343,7 +1347,7 @@ class Followed:
         return found if found[0] < near else (near, at)
 
 
-def _followed(
+def _ends(
     begun: Any, begins: Any, moved: tuple[Any, Any, Any], hold: Any, after: Any, passed: Any
 ) -> Any:
     """The motion of a vehicle during a contact that was followed in time: time and state at its

@@ -31,6 +31,7 @@ from ..travel.simulate import prepared, refuse_one
 from ..vehicle.drag import GRAVITY, gravity_on, in_plan
 from ..vehicle.tyres import Tyres
 from ..vehicle.vehicle import NAMES, Vehicle, needed, vehicle_of
+from .meanwhile import During
 from .mover import Mover
 
 STATE = ("x", "y", "heading", "vx", "vy", "yaw_rate")
@@ -48,11 +49,10 @@ _LEAST_DRAG = 1e-9
 class Leg(NamedTuple):
     """The motion of some cases from ``start`` [s] on, until the next leg.
 
-    Until ``hold`` [s] after the start the motion is unslowed; or, where ``during`` is not NaN, that
-    of a contact followed in time, between the two moments of that table (time and state, of (7,
-    moments, cases)). Then it is that on tyres where ``place``, that of the case in ``followed``, is
-    not -1; and else straight on, slowed evenly to rest within ``stops`` [s], which is infinite for
-    a motion that nothing slows.
+    Until ``hold`` [s] after the start the motion is unslowed; or, where the ends of ``during`` are
+    not NaN, that of a contact followed in time. Then it is that on tyres where ``place``, that of
+    the case in ``followed``, is not -1; and else straight on, slowed evenly to rest within
+    ``stops`` [s], which is infinite for a motion that nothing slows.
 
     Where the ground slopes, by ``rises``, velocities are along it and places in plan; ``pull`` is
     the acceleration down it until ``hold``, and ``gains`` that after it, along its way, of a case
@@ -67,7 +67,7 @@ class Leg(NamedTuple):
     place: Any
     followed: Following | None
     tyres: Tyres | None
-    during: Any = None
+    during: During | None = None
     rises: Any = None
     pull: Any = None
     gains: Any = None
@@ -109,12 +109,12 @@ class Leg(NamedTuple):
             assert self.followed is not None
             found[:, some] = self.followed.at(after[some], self.place[cases[some]])
         if self.during is not None:
-            inside = (held < hold) & np.isfinite(self.during[0, 1, cases])
+            inside = (held < hold) & np.isfinite(self.during.ends[0, 1, cases])
             some = np.flatnonzero(inside)
             if len(some):
-                there = _between(self.during, held[some], cases[some])
+                there = self.during.at(held[some], cases[some])
                 if self.rises is not None:
-                    begun, rises = self.during[1:4, 0, cases[some]], rises[:, some]
+                    begun, rises = self.during.ends[1:4, 0, cases[some]], rises[:, some]
                     there[_PLACES] = moved(begun, there[_PLACES] - begun, rises)
                     still = np.zeros_like(there[_RATES])
                     resting = np.concatenate([there[_PLACES], still])
@@ -162,24 +162,6 @@ def pulled(state: Any, time: Any, pull: Any, rises: Any) -> Any:
     gained[:2] = time * pull
     places = moved(state[_PLACES], time * (state[_RATES] + 0.5 * gained), rises)
     return np.concatenate([places, state[_RATES] + gained])
-
-
-def _between(table: Any, time: Any, cases: Any) -> Any:
-    """States between the moments of a table: cubics with their places and velocities."""
-    moments = table[0][:, cases]
-    before = np.clip(np.sum(moments <= time, axis=0) - 1, 0, len(moments) - 2)
-    start, end = (table[0, at, cases] for at in (before, before + 1))
-    width = end - start
-    part = np.clip((time - start) / np.where(width > 0.0, width, 1.0), 0.0, 1.0)
-    one, two = table[1:, before, cases], table[1:, before + 1, cases]
-    p, q = one[_PLACES], two[_PLACES]
-    v, w = width * one[_RATES], width * two[_RATES]
-    rise = q - p
-    bend = 3.0 * rise - 2.0 * v - w
-    twist = v + w - 2.0 * rise
-    places = p + part * (v + part * (bend + part * twist))
-    rates = (v + part * (2.0 * bend + part * 3.0 * twist)) / np.where(width > 0.0, width, 1.0)
-    return np.concatenate([places, rates])
 
 
 class Course:
@@ -251,7 +233,7 @@ class Course:
         hold: Any,
         state: Any,
         tyres: Tyres | None,
-        during: Any = None,
+        during: During | None = None,
         lasts: Any = 0.0,
     ) -> None:
         """Let some cases go on from a time and a state, after a contact: on new tyres, or on those
@@ -279,7 +261,7 @@ class Course:
                     hold[some],
                     state[:, some],
                     self.wheels[kind],
-                    None if during is None else during[:, :, some],
+                    None if during is None else during.of(some),
                     np.broadcast_to(lasts, len(which))[some],
                 )
             )

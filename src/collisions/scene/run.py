@@ -657,10 +657,12 @@ class Run(Frozen, Summarized):
         on the motion that the slope adds meanwhile, which the impact itself is without.
         """
         leg = self._followed.courses[name].leg_at(time)
-        pulls = leg.pull is not None and leg.during is not None and leg.start[0] == time
-        if not pulls or self.scene.movers[name].fixed or not np.isfinite(leg.during[0, 1, 0]):
+        if leg.during is None or leg.pull is None or leg.start[0] != time:
             return 0.0
-        (began, ended), after = leg.during[1:3, :, 0].T, leg.during[4:6, 1, 0]
+        ends = leg.during.ends[:, :, 0]
+        if self.scene.movers[name].fixed or not np.isfinite(ends[0, 1]):
+            return 0.0
+        (began, ended), after = ends[1:3].T, ends[4:6, 1]
         # Forces F at the times t: the sum of F t is mass by (velocity after by time, less the way).
         lags = ended - began - leg.hold[0] * after
         mass: float = self.scene.movers[name].vehicle.mass
