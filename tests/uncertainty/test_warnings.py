@@ -6,7 +6,9 @@ import json
 import math
 import warnings
 from concurrent.futures import ThreadPoolExecutor
-from threading import Event
+from contextvars import copy_context
+from functools import partial
+from threading import Event, Thread
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -14,7 +16,6 @@ import pytest
 
 import collisions as col
 from collisions import plot, reconstruct, reference
-from collisions.messages import warning
 from collisions.messages.warning import warn, warn_of_cases
 from collisions.travel import Tyres
 from collisions.uncertainty import Interval, Normal, Uniform, propagate
@@ -345,83 +346,104 @@ def test_a_model_of_both_kinds_says_what_is_sure():
     )
 
 
-def test_a_model_that_starts_threads_is_given_no_share():
-    """What solvers warn of there, and why cases have no answer, is stated with how often it was
-    said, and given there too, as the thread may as well be another's.
-    """
-    striking = col.Vehicle(mass=1500, vx=0.0, yaw_inertia=2500, x=-2.0, y=0.0)
+def sticking(speed):
+    """A contact that sticks by an infinite friction, and is refused where A is slow."""
+    striking = col.Vehicle(mass=1500, vx=speed, yaw_inertia=2500, x=-2.0, y=0.0)
     struck = col.Vehicle(mass=1250, vy=12.0, yaw_inertia=1900, x=0.9, y=-0.4)
+    return col.eccentric(
+        striking, struck, 0.1, normal=0.0, point=(0.0, 0.2), friction=math.inf, on_failure="nan"
+    ).a.delta_v
+
+
+STICKING = {"speed": Normal(6.0, 3.0)}
+
+
+@pytest.mark.parametrize("copied", [False, True])
+def test_threads_that_a_model_starts_are_counted_in_a_copy_of_its_context_alone(copied):
+    """Elsewhere what they warn of is given there, as of any other thread."""
 
     def solved(speed):
-        impact = col.eccentric(
-            striking.replace(vx=speed),
-            struck,
-            0.1,
-            normal=0.0,
-            point=(0.0, 0.2),
-            friction=math.inf,
-            on_failure="nan",
-        )
-        return impact.a.delta_v
+        if not copied:
+            warn_of_cases(col.CollisionsWarning("in a thread", code="there"), {"there": None})
+        return sticking(speed)
 
     def model(speed):
         with ThreadPoolExecutor(2) as own:
-            return {"delta_v": np.concatenate(list(own.map(solved, np.array_split(speed, 2))))}
+            tasks = [
+                own.submit(copy_context().run, solved, part) if copied else own.submit(solved, part)
+                for part in np.array_split(speed, 2)
+            ]
+            return {"delta_v": np.concatenate([task.result() for task in tasks])}
 
-    inputs = {"speed": Normal(6.0, 3.0)}
-    found, caught = quiet(lambda: propagate(model, inputs, samples=256, seed=1))
-    plain, _ = quiet(
-        lambda: propagate(lambda speed: {"delta_v": solved(speed)}, inputs, samples=256, seed=1)
-    )
+    study = partial(propagate, inputs=STICKING, samples=256, seed=1)
+    found, caught = quiet(lambda: study(model))
+    plain, _ = quiet(lambda: study(lambda speed: {"delta_v": sticking(speed)}))
+    raised = {one.message.code for one in caught}
+    if not copied:
+        assert raised == {"there", "failed_cases"}
+        assert [one.code for one in found.notes] == ["failed_cases"]
+        return
     assert {one.code for one in plain.notes} == {one.code for one in found.notes}
     assert {"may_slide", "refused_cases"} <= {one.code for one in found.notes}
     note = of_code(found, "may_slide")
     assert note.fields == {"cases": None, "share": None, "times": 2}
     assert note.statement.startswith("2 warnings from calls that were not given all cases")
-    assert "may_slide" in {one.message.code for one in caught}
+    assert "may_slide" in raised
     assert any("it slid" in text for text in found.statements)
 
 
-def test_other_threads_say_nothing_of_a_study_and_hear_nothing_of_it():
-    """One that was there before the model was called, and any once it has answered or failed."""
+@pytest.mark.parametrize("before", [False, True])
+@pytest.mark.parametrize("study", ["propagate", "fit", "posterior"])
+def test_other_threads_say_nothing_of_a_study_and_hear_nothing_of_it(study, before):
+    """Threads that were there before the model was called, and such as anybody starts meanwhile, as
+    a service does for each request.
+    """
     asked, answered = Event(), Event()
-    heard = []
+    other = {}
 
     def beside():
-        asked.wait(60.0)
-        impact = col.eccentric(
-            col.Vehicle(mass=1500, vx=15.0, yaw_inertia=2500, x=-2.0, y=0.0),
-            col.Vehicle(mass=1250, vy=12.0, yaw_inertia=1900, x=0.9, y=-0.4),
-            0.1,
-            normal=0.0,
-            point=(0.0, 0.2),
-            friction=math.inf,
-        )
+        assert asked.wait(60.0)
         warn_of_cases(col.CollisionsWarning("of another thread", code="other"), {"other": None})
-        heard.append(impact.a.delta_v)
+        other["study"] = propagate(
+            lambda speed: {"delta_v": sticking(speed)}, STICKING, samples=256, seed=1
+        )
         answered.set()
 
-    def model(x):
+    def held(x):
         asked.set()
         assert answered.wait(60.0)
-        return {"y": x}
+        return {"y": 2.0 * x}
 
-    with ThreadPoolExecutor(1) as other:
-        inputs = {"x": Normal(0.0, 1.0)}
-        with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always")
-            other.submit(beside)
-            found = propagate(model, inputs, samples=64, seed=1)
-    assert heard
-    assert not found.statements
-    assert {one.message.code for one in caught} == {"other"}
+    def run(model):
+        if study == "propagate":
+            return propagate(model, {"x": Normal(0.0, 1.0)}, samples=64, seed=1)
+        options = {"samples": 512, "seed": 1} if study == "posterior" else {}
+        return getattr(reconstruct, study)(
+            model, {"x": Uniform(0.0, 3.0)}, {"y": (2.0, 0.1)}, **options
+        )
 
-    def failing(x):
-        raise RuntimeError
+    first = Thread(target=lambda: other.update(found=run(held)))
+    second = Thread(target=beside)
 
-    with pytest.raises(RuntimeError):
-        propagate(failing, inputs, samples=64, seed=1)
-    assert not warning._called
+    def both():
+        if before:
+            second.start()
+        first.start()
+        assert asked.wait(60.0)
+        if not before:
+            second.start()
+        for thread in (first, second):
+            thread.join()
+
+    _, caught = quiet(both)
+    alone, own = quiet(lambda: run(lambda x: {"y": 2.0 * x}))
+    assert other["found"].statements == alone.statements
+    beside_alone, heard = quiet(
+        lambda: propagate(lambda speed: {"delta_v": sticking(speed)}, STICKING, samples=256, seed=1)
+    )
+    assert other["study"].statements == beside_alone.statements
+    expected = ["other", *(one.message.code for one in (*own, *heard))]
+    assert sorted(one.message.code for one in caught) == sorted(expected)
 
 
 def test_fits_and_posteriors_give_a_loop_no_share():

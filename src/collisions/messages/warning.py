@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import math
 import sys
-import threading
 import warnings
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager
@@ -82,49 +81,23 @@ class Note(NamedTuple):
         return plain(self.sentence)
 
 
+# A thread or process that a model starts has a context of its own, in which no study is known,
+# unless it runs in a copy of that of the model. Who started a thread cannot be known: one without
+# such a copy may be anybody's.
 _quiet: ContextVar[bool] = ContextVar("quiet", default=False)
 _sampling: ContextVar[list[Said] | None] = ContextVar("sampling", default=None)
 _answer: ContextVar[int | None] = ContextVar("answer", default=None)
 
 
-class _Called(NamedTuple):
-    """A model that is called now: what is noted of it, and the threads that were there before."""
-
-    said: list[Said]
-    before: frozenset[threading.Thread]
-
-
-# Of all threads. One that a model starts has a context of its own, in which no study is known.
-_called: dict[object, _Called] = {}
-
-
-def _studies() -> tuple[tuple[list[Said], bool], ...]:
-    """Where what is said here is noted, and whether the cases are those of that call of a model.
-
-    In a thread that was started since, the cases are not known, nor, where several studies go on at
-    once, whose it is: it is noted of each.
-    """
-    said = _sampling.get()
-    if said is not None:
-        return ((said, True),)
-    if not _called or _quiet.get():
-        return ()
-    thread = threading.current_thread()
-    called = tuple(_called.values())
-    return tuple((one.said, False) for one in called if thread not in one.before)
-
-
 def _note(
     sentences: Mapping[str, Any], kind: type[CollisionsWarning], code: str, least: float
 ) -> bool:
-    """Note the sentences, each with where it holds; whether this thread is that of the study."""
-    own = False
-    for said, own in _studies():
-        said += (
-            Said(sentence, kind, code, where if own else None, least)
-            for sentence, where in sentences.items()
-        )
-    return own
+    """Note the sentences, each with where it holds; whether this is within a study."""
+    said = _sampling.get()
+    if said is None:
+        return False
+    said += (Said(sentence, kind, code, where, least) for sentence, where in sentences.items())
+    return True
 
 
 def warn(warning: CollisionsWarning, where: Any = None, sentence: str = "") -> None:
@@ -162,7 +135,7 @@ def warn_of_cases(
 
 def in_study() -> bool:
     """Whether a model is called for the samples of a study, whose warnings are noted."""
-    return bool(_studies())
+    return _sampling.get() is not None
 
 
 def state_of_study(sentence: str, code: str) -> None:
@@ -190,13 +163,9 @@ def quietly(said: list[Said] | None = None) -> Iterator[None]:
     cases are those of a study, and its warnings go there.
     """
     token, sampled = _quiet.set(True), _sampling.set(said)
-    call = object()
-    if said is not None:
-        _called[call] = _Called(said, frozenset(threading.enumerate()))
     try:
         yield
     finally:
-        _called.pop(call, None)
         _quiet.reset(token)
         _sampling.reset(sampled)
 

@@ -114,10 +114,11 @@ def propagate(
         Angles returned with a unit that all lie in [-pi, pi] (-180 to 180 degrees, not 0 to 360)
         are directions, counted round the circle about their mean (see ``Output``); return a
         rotation as a plain number. Warnings of this library are counted by case where solvers are
-        called with arrays of all cases; of calls with plain numbers, as in a loop, or in threads
-        that the model starts their number is stated, and those in other threads and processes are
-        not known. Other warnings that the model gives go where warnings go, and are counted
-        nowhere.
+        called with arrays of all cases; of calls with plain numbers, as in a loop, their number is
+        stated, and those in threads and processes that the model starts are given there and are not
+        known (a thread counts as the model does if it runs in a copy of its context, as by
+        ``submit(copy_context().run, ...)`` with ``contextvars.copy_context``). Other warnings that
+        the model gives go where warnings go, and are counted nowhere.
         A ``scene.Scene`` is a model too: its inputs and ``outputs`` are named by their paths.
     inputs : dict
         For each name a ``Normal``, ``Uniform``, ``Triangular``, ``LogNormal``, ``Samples``,
