@@ -446,6 +446,118 @@ def test_other_threads_say_nothing_of_a_study_and_hear_nothing_of_it(study, befo
     assert sorted(one.message.code for one in caught) == sorted(expected)
 
 
+def speed_of_course(course, speed):
+    """Speeds before, of which a few in a thousand are below 0."""
+    found = reconstruct.momentum(
+        1500.0,
+        1200.0,
+        course_a=0.0,
+        course_b=course,
+        course_a_after=0.4,
+        course_b_after=0.6,
+        speed_a_after=speed,
+        speed_b_after=10.0,
+        on_failure="nan",
+    )
+    return {"speed_a": found.speed_a}
+
+
+WITHIN = "in a study within the model, "
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_what_a_study_within_a_model_states_is_stated_once(threads):
+    """As by that study alone, with its own numbers."""
+
+    def inner():
+        inputs = {"course": Normal(0.8, 0.1), "speed": Normal(9.0, 1.0)}
+        return propagate(speed_of_course, inputs, samples=1024, seed=1)
+
+    def model(x):
+        return {"x": x * inner()["speed_a"].mean}
+
+    alone, caught = quiet(inner)
+    assert not caught
+    codes = [note.code for note in alone.notes]
+    assert codes == ["instant", "negative_speed"]
+    below = int(np.count_nonzero(alone["speed_a"].values < 0.0))
+    assert 0 < below < 5
+    found, caught = quiet(
+        lambda: propagate(model, {"x": Normal(1.0, 0.1)}, samples=16384, seed=1, threads=threads)
+    )
+    assert not caught
+    assert sorted(found.statements) == sorted(WITHIN + text for text in alone.statements)
+    assert any(text.startswith(f"{WITHIN}{below} of 1024 cases") for text in found.statements)
+    assert all(text[1:] in " ".join(str(found.summary()).split()) for text in found.statements)
+
+    def nested(y):
+        outer = propagate(model, {"x": Normal(1.0, 0.1)}, samples=64, seed=1)
+        return {"y": y * outer["x"].mean}
+
+    (twice, _) = quiet(lambda: propagate(nested, {"y": Normal(1.0, 0.1)}, samples=64, seed=1))
+    assert sorted(twice.statements) == sorted(2 * WITHIN + text for text in alone.statements)
+
+
+def test_many_studies_within_a_model_that_differ_in_numbers_alone_are_one_statement():
+    """A study for each case, which states and raises other numbers for each."""
+
+    def inner(course):
+        inputs = {"course": Normal(course, 0.1), "speed": Normal(9.0, 1.0)}
+        return propagate(speed_of_course, inputs, samples=256, seed=1)["speed_a"].mean
+
+    def model(course):
+        return {"mean": np.array([inner(one) for one in course.tolist()])}
+
+    found, caught = quiet(
+        lambda: propagate(model, {"course": Uniform(0.65, 0.77)}, samples=64, seed=1)
+    )
+    below = [one for one in found.notes if "speed_a is below 0" in one.sentence]
+    stated = [note for note in below if note.warning is None]
+    (raised,) = [note for note in below if note.warning]
+    # One of 256 cases is the most that is not raised.
+    assert [note.statement.partition(" (")[0] for note in stated] == [f"{WITHIN}1 of 256 cases"]
+    assert "in several studies within the model, of which one says: " in raised.statement
+    assert 1 < raised.fields["times"] < 64
+    assert [one.message.code for one in caught].count("negative_speed") == 1
+    assert sum("as an instant" in text for text in found.statements) == 1
+
+
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+def test_what_a_study_that_works_back_says_is_said_wherever_it_is():
+    """A fit within ``propagate``, and ``propagate`` within a fit: both work back."""
+    instant = "eccentric solved every case as an instant"
+
+    def delta_v(speed):
+        return {
+            "delta_v": col.eccentric(
+                A.replace(vx=speed), B, 0.1, **(CONTACT | {"friction": 0.5})
+            ).a.delta_v
+        }
+
+    def fitted(read):
+        found = reconstruct.fit(
+            delta_v, {"speed": Interval(0.0, 30.0)}, {"delta_v": (float(np.mean(read)), 0.3)}
+        )
+        return found["speed"].value
+
+    def mean_of(speed):
+        each = (
+            propagate(delta_v, {"speed": Normal(one, 0.5)}, samples=64, seed=1)["delta_v"].mean
+            for one in speed.tolist()
+        )
+        return {"mean": np.array(list(each))}
+
+    forwards = propagate(
+        lambda x: {"y": fitted(6.0) * x}, {"x": Normal(1.0, 0.1)}, samples=64, seed=1
+    )
+    assert sum(instant in text and WITHIN in text for text in forwards.statements) == 1
+    assert not any("agrees with itself" in text for text in forwards.statements)
+    back = reconstruct.fit(mean_of, {"speed": Interval(5.0, 20.0)}, {"mean": (6.0, 0.3)})
+    assert sum(instant in text and WITHIN in text for text in back.statements) == 1
+    again = propagate(mean_of, {"speed": Normal(12.0, 1.0)}, samples=64, seed=1)
+    assert not any(instant in text for text in again.statements)
+
+
 def test_fits_and_posteriors_give_a_loop_no_share():
     counted = []
 

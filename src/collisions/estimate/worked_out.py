@@ -11,7 +11,7 @@ import numpy as np
 
 from ..messages.errors import CollisionsError, InputError, NoSolutionError, UnitsError
 from ..messages.marked import as_code
-from ..messages.warning import Note, notes_of_samples
+from ..messages.warning import Note, leave_to_outer, notes_of_samples
 from ..quantities.formatting import KIND_OF
 from ..quantities.settings import in_si, units_required
 from ..quantities.units import rendered, shown, si_unit
@@ -93,6 +93,7 @@ def worked_out(
         )
     if np.all(np.isnan(found)):
         raise _no_answer(name, function, arguments, {key: values[key] for key in sampled}, values)
+    leave_to_outer(model.noted)
     return found, own or unit, notes_of_samples(model.noted)
 
 

@@ -5,6 +5,7 @@ stated with its result.
 from __future__ import annotations
 
 import math
+import re
 import sys
 import warnings
 from collections.abc import Collection, Iterable, Iterator, Mapping
@@ -30,6 +31,12 @@ WORKED_BACK = "worked_back"
 ONE_ORDER = "one_order"
 # Of the statement that evidence agrees with itself.
 AGREES = "agrees"
+# Of what a study within the model of another states without a warning.
+INNER = "inner_study"
+# Before each sentence of such a study, and before one of many that differ in their numbers.
+_WITHIN = "in a study within the model, "
+_WITHIN_SEVERAL = "in several studies within the model, of which one says: "
+_NUMBERS = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 
 
 class Said(NamedTuple):
@@ -252,14 +259,22 @@ def notes_of_samples(calls: Calls, *, worked_back: bool = False) -> tuple[Note, 
     """
     total = sum(count for count, _ in calls)
     found: dict[tuple[Any, ...], tuple[int, int]] = {}
+    sentences: dict[tuple[Any, ...], set[str]] = {}
     for _, noted in calls:
-        for *key, cases, uncounted in noted:
-            if key[2] == WORKED_BACK and not worked_back:
+        for sentence, kind, code, least, cases, uncounted in noted:
+            if code == WORKED_BACK and not worked_back:
                 continue
-            known, more = found.get(tuple(key), (0, 0))
-            found[tuple(key)] = known + cases, more + uncounted
+            key = _but_for_numbers(sentence), kind, code, least
+            known, more = found.get(key, (0, 0))
+            found[key] = known + cases, more + uncounted
+            sentences.setdefault(key, set()).add(sentence)
     notes = []
-    for (sentence, kind, code, least), (cases, uncounted) in found.items():
+    for key, (cases, uncounted) in found.items():
+        _, kind, code, least = key
+        # The same one whatever thread came first.
+        sentence = min(sentences[key])
+        if len(sentences[key]) > 1:
+            sentence = _WITHIN_SEVERAL + sentence.removeprefix(_WITHIN)
         # A share that is not known may be any.
         at_most = 1.0 if uncounted else cases / total
         of = f"{cases} of {total} cases ({100.0 * at_most:.3g} %): "
@@ -275,6 +290,23 @@ def notes_of_samples(calls: Calls, *, worked_back: bool = False) -> tuple[Note, 
     return tuple(note for _, note in sorted(notes, key=lambda pair: -pair[0]))
 
 
+def leave_to_outer(calls: Calls) -> None:
+    """Note of the study whose model this one is in, if any, what is said for those alone that work
+    back through a model: this one does not.
+    """
+    for _, noted in calls:
+        for one in noted:
+            if one.code == WORKED_BACK:
+                state_of_study(_WITHIN + one.sentence, one.code)
+
+
+def _but_for_numbers(sentence: str) -> str:
+    """A sentence of a study within a model without its numbers, which differ from study to study;
+    any other as it is.
+    """
+    return _NUMBERS.sub("0", sentence) if sentence.startswith(_WITHIN) else sentence
+
+
 def _of_uncounted(cases: int, times: int, total: int) -> str:
     """Of how many cases something is said where that is not known."""
     many = f"{times} warning{'s' * (times > 1)} from calls that were not given all cases as arrays"
@@ -284,7 +316,18 @@ def _of_uncounted(cases: int, times: int, total: int) -> str:
 
 
 def warn_of(notes: Iterable[Note]) -> None:
-    """Give each warning among the notes, one for each code."""
+    """Give each warning among the notes, one for each code. Within the model of another study all
+    of them are noted of that, but that evidence agrees with itself.
+    """
+    notes = tuple(notes)
+    if in_study():
+        for note in notes:
+            if note.warning:
+                sentence = f"{_WITHIN}{note.sentence}{note.rest}"
+                _note({sentence: None}, note.warning, note.code, SELDOM)
+            elif note.code != AGREES:
+                state_of_study(_WITHIN + note.sentence, INNER)
+        return
     raised = [note for note in notes if note.warning]
     for note in {note.code: note for note in raised}.values():
         alike = [one for one in raised if one.code == note.code]

@@ -17,7 +17,7 @@ from ..messages.errors import CollisionsWarning, InputError, NoSolutionError, Ou
 from ..messages.hints import hinted
 from ..messages.marked import type_of
 from ..messages.progress import reporter
-from ..messages.warning import NO_ANSWER, Note, notes_of_samples, warn_of
+from ..messages.warning import NO_ANSWER, Note, leave_to_outer, notes_of_samples, warn_of
 from ..quantities.reading import ArgumentReader, is_whole
 from ..quantities.refusals import must_be
 from ..quantities.settings import units_required
@@ -732,6 +732,8 @@ def _notes(
     """What belongs with the figures: warnings of the model, cases left out, what a tolerance or a
     local method missed, and what was stated of the inputs.
     """
+    if not any(run.corrected for run in runs):
+        leave_to_outer(model.noted)
     notes = [
         *notes_of_samples(model.noted),
         *(note for run in runs for note in one_sided_notes(run.outputs)),

@@ -1039,8 +1039,8 @@ class Propagation(Summarized):
         """What belongs with the figures, as sentences: every warning that this library gave while
         the model worked, by how many cases, and what is to be said of the method. What is warned of
         in fewer than 0.5 percent of the cases (95 percent where it is that readings differ) stands
-        here alone and is not raised; that cases have no answer is raised of any. Other warnings
-        that the model gives are not here.
+        here alone and is not raised; that cases have no answer is raised of any. What a study
+        within the model states is here too. Other warnings that the model gives are not here.
         """
         return tuple(note.statement for note in self.notes)
 
