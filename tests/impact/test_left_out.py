@@ -69,6 +69,16 @@ def numbers(found):
 # By hand
 
 
+def test_the_impulses_of_the_tyres_are_quantities():
+    """As [N*s] of the docstring says; 0.7 of the weight over 0.1 s."""
+    found = col.left_out(rear_end(20.0))
+    for pair, given in ((found.q.outside_a, found.outside_a), (found.q.outside_b, found.outside_b)):
+        assert [one.m_as("N*s") for one in pair] == list(given)
+        along, across = (one.m_as("lbf*s") for one in pair)
+        assert abs(along) == pytest.approx(1500.0 * MOST / 4.4482216152605, rel=0.03)
+        assert across == 0.0
+
+
 @pytest.mark.parametrize(("speed", "share"), [(2.0, 0.49), (20.0, 0.049)])
 def test_locked_wheels_in_a_rear_end_impact(speed, share):
     """0.69 m/s: half of the delta-V at 2 m/s, a twentieth at 20 m/s; delta-V is 0.7 of

@@ -709,3 +709,29 @@ def test_what_slides_up_a_slope_does_not_rest_where_its_drag_cannot_hold_it() ->
     angle = math.atan(0.2)
     way = 100.0 / (2.0 * GRAVITY * math.cos(angle) * (0.3 + 0.2))
     assert run.rest["A"].x == pytest.approx([math.nan, way * math.cos(angle)], nan_ok=True)
+
+
+def test_each_part_of_a_mapping_or_a_tuple_with_a_unit_is_a_quantity() -> None:
+    run = two(drag=0.5).run()
+    energy = run.q.energy
+    assert [*energy] == ["before", "contacts", "ground", "left"]
+    in_kilojoules = {
+        name: [part.m_as("kJ") for part in (taken if isinstance(taken, tuple) else (taken,))]
+        for name, taken in energy.items()
+    }
+    # Its drag slows A over the 2 m to the touch. Of the kinetic energy left, the share of the mass
+    # of B would be lost to a contact without restitution.
+    braked = 1500.0 * 0.5 * GRAVITY * 2.0
+    lost = (75000.0 - braked) * 0.4 * (1.0 - 0.2**2)
+    assert in_kilojoules["before"] == [75.0]
+    assert in_kilojoules["contacts"] == pytest.approx([lost / 1000.0], rel=1e-6)
+    assert in_kilojoules["ground"] == pytest.approx([75.0 - lost / 1000.0], rel=1e-6)
+    assert in_kilojoules["left"] == [0.0]
+    with pytest.raises(TypeError):
+        energy["before"] = 0.0
+    ((before, _),) = run.q.momentum
+    assert before[0].m_as("kN*s") == pytest.approx(1.5 * math.sqrt(2.0 * (75000.0 - braked) / 1500))
+    assert [time.m_as("ms") for time in run.q.times] == [1000.0 * time for time in run.times]
+    assert run.scene.movers["A"].q.reach.m_as("cm") == pytest.approx(50.0 * math.hypot(*OUTLINE))
+    wheels = Tyres(0.7, (0.1, 0.2, 0.3, 0.4), 2.6, 1.5).q
+    assert [one.m_as("percent") for one in wheels.locks] == pytest.approx([10, 20, 30, 40])

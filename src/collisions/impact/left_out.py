@@ -16,7 +16,14 @@ from ..kernels.contact_laws import BRACH
 from ..kernels.elementwise import select, turning_velocity
 from ..messages.errors import InputError
 from ..messages.warning import quietly
-from ..quantities.attributes import Shown, hypot, in_units_of, math_or_numpy, read_only
+from ..quantities.attributes import (
+    Shown,
+    hypot,
+    in_units_of,
+    math_or_numpy,
+    read_only,
+    returns,
+)
 from ..quantities.directions import from_radians
 from ..quantities.precision import precision
 from ..quantities.reading import ArgumentReader, broadcast, not_an_answer, widened
@@ -420,6 +427,7 @@ class LeftOut(Shown):
     b: LeftOutVehicle = field()
 
     @property
+    @returns("N*s")
     def outside_a(self) -> tuple[Value, Value]:
         """The estimated impulse of A's tyres (x, y) [N*s], to be given to ``eccentric`` or
         ``solve`` as ``outside_a``.
@@ -427,6 +435,7 @@ class LeftOut(Shown):
         return self.a.tyre_impulse_x, self.a.tyre_impulse_y
 
     @property
+    @returns("N*s")
     def outside_b(self) -> tuple[Value, Value]:
         """The same of B's tyres, for ``outside_b``."""
         return self.b.tyre_impulse_x, self.b.tyre_impulse_y

@@ -114,7 +114,9 @@ def derived(unit: str | None = None) -> Callable[[Callable[[Any], T]], Derived[T
 
 
 def returns(unit: str) -> Callable[[F], F]:
-    """Declare the SI unit of a method's return value."""
+    """Declare the SI unit of the return value of a method, or of a property, below its own
+    decorator.
+    """
 
     def declare(method: F) -> F:
         vars(method)["unit"] = unit
@@ -129,7 +131,8 @@ def unit_of(kind: type[Any], name: str) -> str | None:
     if declared is not None:
         unit: str | None = declared.metadata.get("unit")
         return unit
-    unit = getattr(getattr(kind, name, None), "unit", None)
+    member = getattr(kind, name, None)
+    unit = getattr(getattr(member, "fget", member), "unit", None)
     return unit
 
 

@@ -12,6 +12,7 @@ import re
 import sys
 from collections.abc import Iterable, Mapping, Sequence
 from threading import RLock
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias, get_args
 from weakref import WeakKeyDictionary
 
@@ -153,10 +154,12 @@ def is_quantity(value: Any) -> bool:
 
 def to_quantity(value: Any, unit: str) -> Any:
     """The SI value as a Quantity of pint's application registry, so that it mixes with the caller's
-    own; pairs part by part.
+    own; tuples and mappings part by part.
     """
     if isinstance(value, tuple):
         return tuple(to_quantity(part, unit) for part in value)
+    if isinstance(value, (dict, MappingProxyType)):
+        return MappingProxyType({name: to_quantity(part, unit) for name, part in value.items()})
     registry, _ = _registry()
     if registry.non_int_type.__name__ == "Decimal":
         # Such a registry cannot multiply floats. A float is a Decimal exactly.

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..messages.errors import InputError
 from ..messages.hints import hinted
-from ..quantities.attributes import Shown, read_only, texts_given
+from ..quantities.attributes import Shown, read_only, returns, texts_given
 from ..quantities.reading import ArgumentReader
 from ..quantities.refusals import one_of
 from ..quantities.tables import Cells, Part, Summary, all_numbers
@@ -165,6 +165,7 @@ class Mover(Shown):
         )
 
     @property
+    @returns("m")
     def reach(self) -> float:
         """Distance of the farthest corner from the centre of mass [m]; 0 without an outline."""
         if self.outline is None:

@@ -24,7 +24,7 @@ from ..messages.errors import InputError, ShapeError
 from ..messages.hints import hinted, no_argument
 from ..messages.marked import type_of
 from ..quantities.attribute_stubs import TyresQuantities
-from ..quantities.attributes import Shown, read_only
+from ..quantities.attributes import Shown, read_only, returns
 from ..quantities.reading import ArgumentReader, at_least_zero, warn_if_large
 from ..quantities.refusals import must_be
 from ..quantities.settings import Default, in_si
@@ -176,6 +176,7 @@ class Tyres(Shown):
         return _given(self)
 
     @property
+    @returns("")
     def locks(self) -> tuple[Any, Any, Any, Any]:
         """The lock of each wheel: front left, front right, rear left, rear right."""
         return self.lock if isinstance(self.lock, tuple) else (self.lock,) * 4
