@@ -17,7 +17,7 @@ import pint
 import pytest
 
 import collisions as col
-from collisions import travel, uncertainty
+from collisions import reporting, travel, uncertainty
 from collisions.quantities.attributes import unit_of
 from collisions.quantities.units import si_unit
 from collisions.uncertainty.model import read_input
@@ -175,6 +175,41 @@ def test_registries_that_define_a_unit_differently_stay_apart():
     other.define("stein = 7 kg")
     assert col.Vehicle(mass=ureg.Quantity(1, "stein")).mass == 6.0
     assert col.Vehicle(mass=other.Quantity(1, "stein")).mass == 7.0
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("error")
+def test_a_unit_of_another_registry_that_is_another_one_here_is_shown_in_si():
+    """36 km/h that their registry calls mph; on a page, in a record and in a distribution."""
+    theirs = pint.UnitRegistry()
+    theirs.define("mph = 1 km/hour")
+    theirs.define("psi = 1 m")  # of another kind here
+    theirs.define("smoot = 1.7018 m")  # of no kind here
+    vehicle = col.Vehicle(
+        mass="1000 kg",
+        vx=theirs.Quantity(36, "mph"),
+        x=theirs.Quantity(3, "psi"),
+        y=theirs.Quantity(2, "smoot"),
+        heading=theirs.Quantity(90, "degree"),
+    )
+    assert (vehicle.vx, vehicle.x) == (pytest.approx(10.0, rel=1e-15), 3.0)
+    assert vehicle.given == {"mass": "1000 kg", "y": "2.0 smoot", "heading": "90.0 degree"}
+    impact = col.linear_central(vehicle, col.Vehicle(mass=1000.0, x=5.0), 0.2)
+    assert col.Impact.from_dict(json.loads(json.dumps(impact.to_dict()))) == impact
+    for form in ("markdown", "html"):
+        page = col.report(impact, form=form, units="metric")
+        assert reporting.replay(page) == impact
+        assert "36.0 mph" not in page
+        assert "36.00 km/h" in page or "36 km/h" in page
+    stated = uncertainty.Normal(theirs.Quantity(36, "mph"), theirs.Quantity(2, "mph"))
+    assert str(stated) == str(uncertainty.Normal("10 m/s", f"{2 / 3.6!r} m/s"))
+    with col.options(require_units=True):
+        assert col.Vehicle(mass="1 kg", vx=theirs.Quantity(36, "mph")).vx == vehicle.vx
+    speeds = theirs.Quantity(np.array([36.0, 72.0]), "mph")
+    np.testing.assert_allclose(col.Vehicle(mass="1 kg", vx=speeds).vx, [10.0, 20.0], rtol=1e-15)
+    # What is the same unit in both stays as it was given.
+    usual = other_registry().Quantity(36, "km/hour")
+    assert col.Vehicle(mass="1 kg", vx=usual).given["vx"] == "36.0 kilometer / hour"
 
 
 def test_a_context_is_obeyed_and_forgotten():

@@ -44,6 +44,7 @@ from .units import (
     in_degrees,
     is_quantity,
     magnitude,
+    means_the_same_here,
     no_comma,
     parse,
     rendered,
@@ -111,7 +112,8 @@ class ArgumentReader:
             problem_found = _outside(read, domain, argument, value)
             if problem_found is not None:
                 return self.refuse(problem_found)
-        if not text and argument not in self.trusted:
+        bare = not text and (type(value) is float or not is_quantity(value) or not value._units)
+        if bare and argument not in self.trusted:
             strict = unit and units_required.get() and not isinstance(value, (Default, Worked))
             if strict and 0.0 < largest(read) < math.inf:
                 return self.refuse(_without_unit(value, unit, argument))
@@ -311,9 +313,13 @@ def _read(value: Any, unit: str, argument: str) -> tuple[Any, str]:
 
 
 def _convert(quantity: Any, unit: str, argument: str, given: Any) -> tuple[Any, str]:
-    """The magnitude in the unit, and the quantity written as a text."""
+    """The magnitude in the unit, and the quantity written as a text; "" where its unit, of another
+    registry, is another one to those who read the text.
+    """
     number = _plain(magnitude(quantity), argument, unit)
     by, name = factor(quantity, unit, argument, given)
+    if name and is_quantity(given) and not means_the_same_here(given, unit, by, name):
+        name = ""
     text = f"{number if isinstance(number, float) else 1.0!r} {name}" if name else ""
     if by == 1.0:
         return number, text

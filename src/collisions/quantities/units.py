@@ -108,6 +108,8 @@ _NAME = r"(?:[^\W\d_]|[°%])(?:[^\W\d]|[°%])*"
 _UNIT = rf"\(*{_NAME}{_POWER}\)*(?:(?:\s*(?:/|\*(?!\*)|·)\s*|\s+)\(*{_NAME}{_POWER}\)*)*"
 _WITH_COMMA = r"(?a:[+-]?\d[\d,]*,\d)"
 _LONGEST_TEXT = 60
+# By how much factors to SI of one unit may differ, such as one that was worked out in Decimal.
+_ROUNDING = 1e-12
 _ANGLES = ("degree", "turn", "arcminute", "arcsecond", "grade")
 # Names that mean one thing to pint, or to one version of it, and another to their users.
 _AMBIGUOUS = {
@@ -289,6 +291,24 @@ def of_another_registry(text: str) -> bool:
     except UnitsError:
         return True
     return False
+
+
+def means_the_same_here(quantity: Any, unit: str, by: float, name: str) -> bool:
+    """Whether the application registry, which reads texts, has this factor ``by`` to an SI unit for
+    the unit of a Quantity, by this name; also where it does not know the name at all.
+    """
+    pint: Any = sys.modules["pint"]
+    if quantity._REGISTRY is pint.get_application_registry().get():
+        return True
+    try:
+        here = parse(f"1 {name}", unit, "")
+    except UnitsError:
+        return True
+    try:
+        found, _ = factor(here, unit, "", here)
+    except UnitsError:
+        return False
+    return abs(found - by) <= _ROUNDING * abs(by)
 
 
 def with_symbol(text: str) -> str:

@@ -25,6 +25,7 @@ from ..quantities.units import (
     factor,
     has_unit,
     is_quantity,
+    means_the_same_here,
     parse,
     shown,
     si_unit,
@@ -45,11 +46,15 @@ class GivenUnit(str):
 
     @classmethod
     def of(cls, given: Any, argument: str) -> GivenUnit:
-        """The unit of a text or a Quantity."""
+        """The unit of a text or a Quantity; the SI unit where that of a Quantity of another
+        registry is another one to those who read it.
+        """
         made = cls(si_unit(given, argument))
         quantity = parse(given, made, argument) if isinstance(given, str) else given
         made.factor = factor(quantity, made, argument, given)[0]
         made.written = unit_as_written(given)
+        if is_quantity(given) and not means_the_same_here(given, made, made.factor, made.written):
+            made.factor, made.written = 1.0, str(made)
         return made
 
 
