@@ -709,6 +709,52 @@ def test_pounds_and_grams_confused(field, given, hint):
     assert given in str(caught.value)
 
 
+@pytest.mark.parametrize("given", ["3000 lbf", "15 kN", "1500 kgf", "3 kip"])
+def test_a_weight_is_no_mass(given):
+    with pytest.raises(col.UnitsError, match="a weight in lbf or N is a force"):
+        col.Vehicle(mass=given)
+
+
+@pytest.mark.parametrize(
+    ("field", "given", "said"),
+    [
+        ("mass", "1 dBm", "decibelmilliwatt"),
+        ("mass", "3 J", "joule"),
+        ("mass", "3 Pa", "pascal"),
+        ("mass", "1 MG", "megagauss"),
+        ("mass", "1500 k g", "'k g' is written 'kg'"),
+        ("mass", "1500 k G", "'k G' is written 'kg'"),
+        ("vx", "80 k m/h", "'k m/h' is written 'km/h'"),
+        ("yaw_inertia", "1 dBm", "decibelmilliwatt"),
+        ("yaw_inertia", "1800 N*m", "newton"),
+        ("yaw_inertia", "1330 ft lb", "pound"),
+    ],
+)
+def test_what_is_no_force_is_not_called_one(field, given, said):
+    """The reason is that of what was given."""
+    with pytest.raises(col.UnitsError, match=said) as caught:
+        col.Vehicle(**{"mass": 1.0, field: given})
+    assert "force" not in str(caught.value).partition("; write for example")[0]
+
+
+def test_a_short_ton_is_2000_pounds():
+    """In a text, whatever was read before; pint itself makes it a ton, which may be others."""
+    for _ in range(2):
+        for given in ("1 short_ton", "1 short_tons"):
+            mass = col.Vehicle(mass=given).mass
+            assert mass == pytest.approx(2000 * EXACT["lb"], rel=1e-15)
+        for given in ("1 ton", pint.Quantity(1, "short_ton"), "1 short_ton*ton/ton"):
+            with pytest.raises(col.UnitsError, match="a ton may be"):
+                col.Vehicle(mass=given)
+    truck = col.Vehicle(mass="20 short_ton", vx="10 m/s")
+    impact = col.linear_central(truck, col.Vehicle(mass="1 long_ton"), 0.2)
+    assert col.Impact.from_dict(json.loads(json.dumps(impact.to_dict()))) == impact
+    page = col.report(impact, form="markdown", units="us")
+    assert reporting.replay(page) == impact
+    assert "40000 lb, given as 20 short" in page
+    assert str(uncertainty.Normal("20 short_ton", "1 short_ton")) == "20 ± 1 short_ton"
+
+
 def test_a_list_of_quantities_is_caught_as_it_is_read(ureg):
     """numpy would fail on it deep inside with a meaningless message."""
     with pytest.raises(col.UnitsError, match="put the unit on the whole"):

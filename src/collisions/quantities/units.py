@@ -117,7 +117,10 @@ _AMBIGUOUS = {
         "a mil is one of 6400, 6300 or 6000 to the turn, and one of 64000 to older versions of "
         "pint: write 'deg' or 'rad'"
     ),
-    "ton": "a ton may be 1000 kg, 2000 lb or 2240 lb: write 'tonne', 'kg' or 'lb'",
+    "ton": (
+        "a ton may be 1000 kg, 2000 lb or 2240 lb: write 'tonne', 'kg' or 'lb', or, in a text, "
+        "'short_ton' or 'long_ton'"
+    ),
     "quarter": "a quarter may be 25 lb, 28 lb, 500 lb or 560 lb: write 'kg' or 'lb'",
 }
 _US_UNITS = {"mile_per_hour", "mile", "foot", "inch", "yard", "pound", "force_pound", "slug"}
@@ -143,7 +146,7 @@ _first_use = RLock()
 # Per registry: unit texts already read, and factors to SI. Neither keeps the registry alive. A
 # registry that stands in ``_read`` is loaded.
 _read: WeakKeyDictionary[Any, dict[str, Any]] = WeakKeyDictionary()
-_known: WeakKeyDictionary[Any, dict[tuple[Any, str], tuple[float, str]]] = WeakKeyDictionary()
+_known: WeakKeyDictionary[Any, dict[tuple[Any, ...], tuple[float, str]]] = WeakKeyDictionary()
 
 
 def is_quantity(value: Any) -> bool:
@@ -552,7 +555,7 @@ def factor(quantity: Any, unit: str, argument: str, given: Any) -> tuple[float, 
     known = _known.get(registry)
     if known is None:
         known = _known.setdefault(registry, {})
-    key = (quantity._units, unit)
+    key = (quantity._units, unit, _is_short_ton(given))
     found = known.get(key)
     # An active context may give a unit another meaning until it ends, so nothing is kept of it.
     in_context = bool(getattr(getattr(registry, "_active_ctx", None), "contexts", ()))
@@ -587,7 +590,9 @@ def _factor(quantity: Any, unit: str, argument: str, given: Any) -> tuple[float,
         raise _bad_units(given, unit, argument, error, beside=beside) from None
     if zero != 0.0 or two != 2.0 * one:
         raise _bad_units(given, unit, argument, None)
-    if (hint := _out_of_place(quantity, unit, wanted)) or (hint := _ambiguous_unit(quantity)):
+    if (hint := _out_of_place(quantity, unit, wanted)) or (
+        hint := _ambiguous_unit(quantity, given)
+    ):
         raise _bad_units(given, unit, argument, None, hint)
     return found
 
@@ -659,14 +664,23 @@ def _is_count(registry: Any, name: str) -> bool:
     }
 
 
-def _ambiguous_unit(quantity: Any) -> str:
+def _is_short_ton(given: Any) -> bool:
+    """Whether a text says which ton it means, by a name that a Quantity does not keep: to pint a
+    short_ton is a ton.
+    """
+    if not isinstance(given, str) or "short_ton" not in given:
+        return False
+    return re.search(r"\btons?\b", given) is None
+
+
+def _ambiguous_unit(quantity: Any, given: Any) -> str:
     """The hint for a unit whose name means different things to different people; "" for others."""
     registry = quantity._REGISTRY
     if set(map(str, quantity._units)) == {"meter", "hour"}:
         return "; m/h are metres per hour: write 'mph' for miles, 'km/h' for kilometres"
     for name in map(str, quantity._units):
         (prefix, root, _), *_ = registry.parse_unit_name(name) or [("", name, "")]
-        if root in _AMBIGUOUS:
+        if root in _AMBIGUOUS and not (root == "ton" and _is_short_ton(given)):
             return f"; {_AMBIGUOUS[root]}"
         powers = {str(kind): power for kind, power in registry.get_dimensionality(root).items()}
         is_rate = powers.pop("[time]", 0) == -1 and powers in ({"[length]": 1}, {})
@@ -680,16 +694,23 @@ def _bad_units(
 ) -> UnitsError:
     wanted = unit or _PLAIN
     text = str(given)
-    dimensions = str(getattr(error, "dim1", ""))
-    is_force = "[mass]" in dimensions and "[length]" in dimensions and "[time]" in dimensions
+    dimensions = str(getattr(error, "dim1", "")).strip(" ()")
+    is_weight = {*re.findall(r" ([*/]) (\[\w+\](?: \*\* [0-9.]+)?)", f" * {dimensions}")} == {
+        ("*", "[mass]"),
+        ("*", "[length]"),
+        ("/", "[time] ** 2"),
+    }
     name = unit_as_written(given) if isinstance(given, str) else ""
-    if (meant := _MEANT.get(name.rstrip(".").lower(), name)) != name:
+    joined = re.sub(r"\s", "", name)
+    meant = _MEANT.get(joined.rstrip(".").lower(), name)
+    # Of a name with blanks in it, only if they are all that is wrong.
+    if meant != name and (joined == name or meant == joined.lower()):
         hint = f"; {name!r} is written {meant!r}"
-    if unit == "kg" and is_force:
+    if unit == "kg" and is_weight:
         hint = "; a weight in lbf or N is a force: give the mass, in 'lb' or 'kg'"
     elif unit in _FORCES and _as_force(text) != text:
         hint = f"; pounds here are a force, {_as_force(text)!r}"
-    elif unit == "kg*m**2" and is_force:
+    elif unit == "kg*m**2" and "[time]" in dimensions and re.search("lb|pound", text):
         hint = "; pounds here are a force: write 'lbf*ft*s**2' or 'slug*ft**2'"
     # pint's own words are about dimensions, and the hint says it better.
     reason = f" ({error})" if str(error or "") and not hint else ""
