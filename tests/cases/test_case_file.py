@@ -1355,6 +1355,33 @@ def test_units_of_a_report_that_are_none_are_refused(wrong, tmp_path, capsys):
     assert "units" in said
 
 
+@pytest.mark.parametrize(
+    ("option", "said"),
+    [
+        ("title = 5", "report.title: must be a text that says something, got 5"),
+        ("title = {}", "report.title: must be a text that says something, got {}"),
+        ("author = ''", "report.author: must be a text that says something, got ''"),
+        ("date = 2024-05-01", "report.date: is a date or a time"),
+        ("notes = 5", "report.notes: must be a text, a list of texts, or a table of them by input"),
+        ("notes = [5]", "report.notes: must be a text that says something, got 5"),
+        ("figures = 1", "report.figures: must be true or false, got 1"),
+        ("derivation = 'no'", "report.derivation: must be true or false, got 'no'"),
+        ("share_a = 2", "report.share_a: must be"),
+        ("answers = 'a.delta_v'", "report.answers: must be a list of names of what was found"),
+    ],
+)
+def test_options_that_no_report_can_use_are_refused_also_where_none_is_written(
+    option, said, tmp_path, capsys
+):
+    file = tmp_path / "case.toml"
+    file.write_text(f"{REAR_END}[report]\n{option}\n", encoding="utf-8")
+    code, text, complaints = run(capsys, file)
+    assert (code, text) == (2, "")
+    assert complaints.startswith(f"{file}: {said}")
+    assert complaints.count("\n") == 1
+    assert run(capsys, file, "--report", tmp_path / "page.html")[2] == complaints
+
+
 def test_shares_of_a_variance_begin_with_the_largest_and_tell_those_below_five_percent():
     """Of equal masses, one at rest, delta-V is (1 + e) vx / 2: an error of 10 % in vx and one of 2
     % in 1 + e, so shares of 100 and 4 out of 104.

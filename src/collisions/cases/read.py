@@ -21,9 +21,11 @@ from ..impact import solvers
 from ..messages.errors import CollisionsError, InputError, UnitsError
 from ..messages.hints import nearest
 from ..messages.marked import as_code
+from ..quantities.reading import ArgumentReader
 from ..quantities.units import example, shown, to_quantity, unit_as_written
 from ..quantities.usual_units import Worked
 from ..reporting import report
+from ..reporting.checking import check_alone
 from ..reporting.what_if import SLIDERS
 from ..scene import Contact
 from ..uncertainty.distribution import WithoutUnit
@@ -634,9 +636,22 @@ class Reader:
         """The options of the report, and the ranges of the page with sliders."""
         page, ranges = self.table("report"), self.table("what_if.ranges")
         self.known(page, "report", parameters(report))
+        self._check_report(page)
         self.known(self.table("what_if"), "what_if", ["ranges"])
         self.known(ranges, "what_if.ranges", SLIDERS)
         return page, ranges
+
+    def _check_report(self, page: dict[str, Any]) -> None:
+        """Refuse options of the report that no report can use, also where none is asked for."""
+        usual = {name: one.default for name, one in signature(report).parameters.items()}
+        reader = ArgumentReader()
+        check_alone(reader, usual | page)
+        call = Call("report", report, page)
+        known = {key for key, _ in self.problems}  # as of a date, which no key takes
+        for problem in reader.problems:
+            key = call._key_of(problem)
+            if key not in known:
+                self.refuse(key, call._message(problem, key))
 
     def known(self, table: Iterable[str], place: str, names: Iterable[str]) -> None:
         """Refuse the keys of a table that are not among these names."""

@@ -19,6 +19,7 @@ from ..messages.errors import InputError
 from ..messages.hints import nearest
 from ..messages.marked import type_of
 from ..quantities.reading import ArgumentReader, need_one_case, single_number
+from ..quantities.refusals import must_be, one_of, yes_or_no
 from ..quantities.units import shown
 from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..reconstruct.found_again import need_found_again
@@ -98,6 +99,41 @@ def results_of(impact: Any, uncertainty: Any) -> tuple[list[tuple[Any, Any]], To
     return pairs, together
 
 
+def check_alone(reader: ArgumentReader, options: Mapping[str, Any]) -> None:
+    """Refuse the options that no page can use, whatever results it is about."""
+    form, notes, answers = (options[name] for name in ("form", "notes", "answers"))
+    if not isinstance(form, str) or form not in get_args(Form):
+        reader.refuse(one_of("form", get_args(Form), form, code="bad_option"))
+    named = isinstance(answers, (list, tuple)) and answers
+    if answers is not None and not (named and all(isinstance(name, str) for name in answers)):
+        listed = "a list of names of what was found, such as `['speed of the Golf']`"
+        reader.refuse(must_be("answers", listed, answers, code="bad_option"))
+    texts = [(name, options[name]) for name in ("title", *FILED) if options[name] is not None]
+    for part in _notes_of(options):
+        several = part.values() if isinstance(part, Mapping) else (part,)
+        texts += (("notes", text) for text in several)
+    for name, text in texts:
+        if not isinstance(text, str) or not plain(text):
+            reader.refuse(must_be(name, "a text that says something", text, code="not_a_text"))
+    if notes is not None and not isinstance(notes, (str, list, tuple, Mapping)):
+        allowed = "a text, a list of texts, or `|a dict|a table` of them by input"
+        reader.refuse(must_be("notes", allowed, notes, code="not_a_text", got=type_of(notes)))
+    for name in ("figures", "derivation"):
+        if not isinstance(options[name], bool):
+            reader.refuse(yes_or_no(name, options[name], code="bad_option"))
+    if options["share_a"] is not None:
+        share = reader.number(options["share_a"], "", "share_a", UNIT_INTERVAL)
+        single_number(reader, share, "share_a", "takes one value: a report is of one case")
+
+
+def _notes_of(options: Mapping[str, Any]) -> list[Any]:
+    """The notes, one or several; none where they are no notes."""
+    notes = options["notes"]
+    if isinstance(notes, (list, tuple)):
+        return list(notes)
+    return [notes] if isinstance(notes, (str, Mapping)) else []
+
+
 def checked(
     results: Sequence[tuple[Any, Any]],
     options: Mapping[str, Any],
@@ -110,18 +146,8 @@ def checked(
     def refuse(argument: str, text: str, code: str = "bad_option") -> None:
         reader.refuse(InputError(text, code=code, argument=argument))
 
-    form, notes, share_a = (options[name] for name in ("form", "notes", "share_a"))
-    if not isinstance(form, str) or form not in get_args(Form):
-        refuse(
-            "form", f"form must be one of {', '.join(map(repr, get_args(Form)))}, got {shown(form)}"
-        )
-    parts = (
-        notes
-        if isinstance(notes, (list, tuple))
-        else [notes]
-        if isinstance(notes, (str, Mapping))
-        else []
-    )
+    check_alone(reader, options)
+    parts = _notes_of(options)
     paragraphs = [part for part in parts if not isinstance(part, Mapping)]
     beside = {
         name: text for part in parts if isinstance(part, Mapping) for name, text in part.items()
@@ -139,22 +165,6 @@ def checked(
         )
         refuse("notes", f"notes has {shown(name)}, which is no input of this page; {instead}")
     _check_answers(refuse, options["answers"], results)
-    texts = [(name, options[name]) for name in ("title", *FILED) if options[name] is not None]
-    for name, text in [*texts, *(("notes", text) for text in (*paragraphs, *beside.values()))]:
-        if not isinstance(text, str) or not plain(text):
-            refuse(
-                name, f"{name} must be a text that says something, got {shown(text)}", "not_a_text"
-            )
-    if notes is not None and not isinstance(notes, (str, list, tuple, Mapping)):
-        refuse(
-            "notes",
-            "notes must be a text, a list of texts, or `|a dict|a table` of them by input, got "
-            f"{type_of(notes)}",
-            "not_a_text",
-        )
-    for name in ("figures", "derivation"):
-        if not isinstance(options[name], bool):
-            refuse(name, f"{name} must be `True` or `False`, got {shown(options[name])}")
     for one, uncertainty in results:
         if uncertainty is not None and not isinstance(uncertainty, Propagation):
             refuse(
@@ -184,9 +194,6 @@ def checked(
         for label in "ab"
         if options[f"outline_{label}"] is not None
     }
-    if share_a is not None:
-        share = reader.number(share_a, "", "share_a", UNIT_INTERVAL)
-        single_number(reader, share, "share_a", "takes one value: a report is of one case")
     reader.close()
     return Checked(
         [plain(paragraph) for paragraph in paragraphs],
@@ -213,15 +220,7 @@ def _check_answers(
     refuse: Callable[[str, str], None], answers: Any, results: Sequence[tuple[Any, Any]]
 ) -> None:
     """Refuse names of answers that none of the results has."""
-    if answers is None:
-        return
-    named = isinstance(answers, (list, tuple)) and answers
-    if not named or not all(isinstance(name, str) for name in answers):
-        refuse(
-            "answers",
-            "answers must be a list of names of what was found, such as `['speed of the Golf']`, "
-            f"got {shown(answers)}",
-        )
+    if not isinstance(answers, (list, tuple)):
         return
     known: dict[str, None] = {}
     for one, uncertainty in results:
@@ -234,7 +233,7 @@ def _check_answers(
                 known |= dict.fromkeys(uncertainty.outputs)
             known |= dict.fromkeys(names_of_answers(one))
     for name in answers:
-        if name not in known:
+        if isinstance(name, str) and name not in known:
             near = nearest(name, known, _MOST_NEAR, 0.5) or list(known)[:_MOST_NEAR]
             refuse(
                 "answers",

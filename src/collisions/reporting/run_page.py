@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from typing import Any, get_args
+from typing import Any
 
 import numpy as np
 
@@ -29,7 +29,7 @@ from ..vehicle.tyres import Tyres
 from . import figures as drawing
 from . import sections
 from .answer import ranged_text
-from .checking import FILED, Form
+from .checking import FILED, check_alone
 from .posterior_part import warned_of
 from .record import record
 from .render import Html, Markdown, Printed, Sheet, plain
@@ -137,27 +137,22 @@ def _checked(given: Mapping[str, Any]) -> list[str]:
                 f"{name} is for one impact, and this is a run; leave it out, or write "
                 f"report(run.impacts[0], {name}=...) for the impact that it is of",
             )
-    if not isinstance(given["form"], str) or given["form"] not in get_args(Form):
-        forms = ", ".join(map(repr, get_args(Form)))
-        refuse("form", f"form must be one of {forms}, got {shown(given['form'])}")
+    # A run has neither answers nor shares to choose, and its notes are texts alone.
+    check_alone(reader, {**given, "answers": None, "share_a": None, "notes": None})
     if given["uncertainty"] is not None and not isinstance(given["uncertainty"], Propagation):
         refuse(
             "uncertainty",
             "uncertainty must be what uncertainty.propagate returned for the scene, got "
             f"{type(given['uncertainty']).__name__}",
         )
-    for name in ("figures", "derivation"):
-        if not isinstance(given[name], bool):
-            refuse(name, f"{name} must be True or False, got {shown(given[name])}")
     notes = given["notes"]
     listed = [] if notes is None else list(notes) if isinstance(notes, (list, tuple)) else [notes]
-    texts = [(name, given[name]) for name in ("title", *FILED) if given[name] is not None]
-    for name, text in [*texts, *(("notes", note) for note in listed)]:
-        if not isinstance(text, str) or not plain(text):
-            more = ": the report of a run has notes that are texts" if name == "notes" else ""
+    for note in listed:
+        if not isinstance(note, str) or not plain(note):
             refuse(
-                name,
-                f"{name} must be a text that says something, got {shown(text)}{more}",
+                "notes",
+                f"notes must be a text that says something, got {shown(note)}: the report of a run "
+                "has notes that are texts",
                 "not_a_text",
             )
     reader.close()
