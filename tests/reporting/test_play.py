@@ -15,7 +15,7 @@ from collisions.reporting.play import _moment
 from collisions.scene import Contact, Mover, Run, Scene
 from collisions.scene.frames import frames_of
 from collisions.travel import Tyres
-from crashes import NAMES, coasting, furthest_from, three_cars
+from crashes import NAMES, coasting, furthest_from, over_ice, three_cars
 from javascript import moved
 
 FOOT, MPH = 0.3048, 0.44704
@@ -214,9 +214,10 @@ def test_findings_are_listed_and_said_when_their_time_comes() -> None:
 
 
 def test_a_finding_at_a_contact_comes_after_it_and_a_page_without_any_has_no_list() -> None:
+    bare = over_ice()
+    assert not bare.findings
+    assert "<li id=" not in col.play(bare)
     run = three_cars()
-    assert not run.findings
-    assert "<li id=" not in col.play(run)
     frames = frames_of(run)
     assert [_moment(frames, time) for time in run.times] == frames.after
     assert _moment(frames, 0.5 * (frames.times[5] + frames.times[6])) == 6
