@@ -63,6 +63,8 @@ ENDED = "10 s"  # after first contact, when none lasts any more
 PARTS = 20  # of a contact that is taken as an instant, in which its recorders turn
 STEPS = 20  # of a contact in time: within 0.1 % of those of 100
 LOST = 0.02  # of the samples: above, the range is of the others, and the route counts as refused
+# What posterior warns of: errors of a mean in standard deviations, of the logarithm of the evidence
+MEAN_ERROR, EVIDENCE_ERROR = 0.1, 0.5
 COVERAGE = 0.998  # of the binomial interval of a share held
 
 Speeds = dict[str, tuple[float, float]]
@@ -521,22 +523,25 @@ def asked(
         found = solver(*arguments, **settings)
     speeds = {label: f"speed_{label}" for label in sought}
     for one in caught:
-        # That restitution or friction rests on its prior, a true one, is nothing against a speed.
-        about_others = not set(speeds.values()).intersection(unsettled(found))
-        if not (getattr(one.message, "code", "") in UNSETTLED and about_others):
+        # That restitution or friction rests on its prior, a true one, or is known less well by so
+        # many samples, is nothing against a speed.
+        about = concerned(getattr(one.message, "code", ""), found)
+        if about is None or about.intersection(speeds.values()):
             warnings.warn(one.message, stacklevel=2)
     return {label: found[name].interval(0.95) for label, name in speeds.items()}
 
 
-UNSETTLED = ("undetermined", "told_by_bounds")  # codes: an unknown of which evidence tells nothing
-
-
-def unsettled(found: Any) -> set[str]:
-    """The unknowns of which the evidence tells nothing, or nothing that their bounds do not."""
-    if isinstance(found, reconstruct.Posterior):
-        return set(found.prior_only)
-    left = [one for one in found.undetermined if not one.held_by_prior]
-    return {name for one in left for name in one.unknowns} | set(found.told_by_bounds)
+def concerned(code: str, found: Any) -> set[str] | None:
+    """The unknowns that a warning of a posterior or a fit is about; None if about all of it."""
+    if code in ("undetermined", "told_by_bounds"):  # the evidence tells nothing of an unknown
+        if isinstance(found, reconstruct.Posterior):
+            return set(found.prior_only)
+        left = [one for one in found.undetermined if not one.held_by_prior]
+        return {name for one in left for name in one.unknowns} | set(found.told_by_bounds)
+    if code == "islands_disagree" and found.log_evidence_error <= EVIDENCE_ERROR:
+        errors = {n: one.mean_standard_error / one.std for n, one in found.unknowns.items()}
+        return {name for name, error in errors.items() if not error <= MEAN_ERROR}
+    return None
 
 
 def by_posterior(
