@@ -181,6 +181,24 @@ def test_what_stops_uphill_and_rolls_back_is_refused_before_it_is_struck() -> No
         assert many == pytest.approx([math.nan, early], nan_ok=True, rel=1e-9)
 
 
+def test_a_case_that_rolls_back_before_two_contacts_has_the_reason_that_it_has_alone() -> None:
+    """The contact of the other two does not come either."""
+    movers = {
+        "A": car(np.array([4.0, 30.0]), 0.0, slowed={"drag": 0.02}),
+        "B": car(0.0, 20.0, slowed={"tyres": LOCKED}),
+        "C": car(0.0, 60.0, slowed={"tyres": LOCKED}),
+    }
+    pairs = [("A", "B"), ("B", "C")]
+    hits = [Contact(*pair, **IN_LINE) for pair in pairs]
+    scene = Scene(movers=movers, contacts=hits, slope=(0.1, 0.0))
+    with pytest.warns(col.CollisionsWarning, match="have no answer"):
+        assert scene.run().status[0] == "never_stops"
+    with pytest.raises(col.NoSolutionError) as refused:
+        scene.case(0).run()
+    assert refused.value.code == "never_stops"
+    assert str(refused.value).startswith("A")
+
+
 def test_a_car_that_rolls_down_is_refused_where_its_rest_is_asked_for() -> None:
     movers = {
         "A": car(8.0, -10.0, slowed={"tyres": ROLLS}),

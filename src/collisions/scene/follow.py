@@ -415,7 +415,9 @@ class Followed:
             if not contact.touches
         }
         alive = self.failed == ""
-        outlined = {name for pair in self._pairs if pair.shapes is not None for name in pair.names}
+        # In the order of the movers, so that a refusal names the same one each time.
+        paired = {name for pair in self._pairs if pair.shapes is not None for name in pair.names}
+        outlined = [name for name in self.movers if name in paired]
         for _ in range(_MOST_ROUNDS):
             times, rules = self._next(now, alive, left)
             alive = alive & (self.failed == "")
@@ -1253,6 +1255,8 @@ class Followed:
         that no contact describes.
         """
         for rule, contact in enumerate(self.contacts):
+            # What the contact before was refused for is said, and nothing more.
+            self.gather()
             absent = np.flatnonzero(~np.any(self.rules == rule, axis=0) & (self.failed == ""))
             # It may come where the motion of the two is not known any more.
             known = self._refuse_lost((contact.a, contact.b), absent, np.full(len(absent), np.inf))
