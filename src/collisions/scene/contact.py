@@ -48,7 +48,8 @@ class Contact(Shown):
 
     A pair is one contact until its outlines were 0.05 m apart. When it then touches again at 1 m/s
     or more, a rule at "touch" is applied again; so it is where another impact drives one of them
-    into the other at once.
+    into the other at once. How fast they close is how fast the gap between the outlines does
+    where they touch; of a face against a face, the greatest over the stretch in which they overlap.
 
     Parameters
     ----------

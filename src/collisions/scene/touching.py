@@ -106,6 +106,11 @@ def _along(axes: Any, corners: Any) -> Any:
     return axes[0][:, None] * corners[0][None] + axes[1][:, None] * corners[1][None]
 
 
+def _on_axis(axis: Any, vectors: Any) -> Any:
+    """Vectors, or the corners of each case, along one axis of each case."""
+    return axis[0] * vectors[0] + axis[1] * vectors[1]
+
+
 class Pair(NamedTuple):
     """Two outlines and how both move: ``states(times, cases)`` of each, the bounds of their
     accelerations, and ``speeds(cases, state, state)``, the bound of how fast any two points of them
@@ -157,18 +162,37 @@ def _corner_rates(met: Meeting, axis: Any, state_a: Any, state_b: Any) -> tuple[
     """Gaps between every two corners along an axis of each case, and how fast they close."""
     none = np.zeros((2, axis.shape[1]))
     away = state_b[:2] - state_a[:2]
-    p = axis[0] * met.one[0] + axis[1] * met.one[1]
-    q = axis[0] * met.other[0] + axis[1] * met.other[1]
+    p, q = _on_axis(axis, met.one), _on_axis(axis, met.other)
     u, v = _rates(met.one, state_a, none), _rates(met.other, state_b, away)
-    pu, qv = axis[0] * u[0] + axis[1] * u[1], axis[0] * v[0] + axis[1] * v[1]
+    pu, qv = _on_axis(axis, u), _on_axis(axis, v)
     return q[None] - p[:, None], pu[:, None] - qv[None]
 
 
 def closing_of(met: Meeting, axis: Any, state_a: Any, state_b: Any) -> Any:
-    """How fast the gap along an axis closes, between the corners that are nearest along it."""
-    gaps, rates = _corner_rates(met, axis, state_a, state_b)
-    least = gaps.min(axis=(0, 1))
-    return np.where(gaps <= least + _ALIKE, rates, -np.inf).max(axis=(0, 1))
+    """How fast the gap along an axis closes where the outlines are nearest along it; of a face
+    against a face the greatest over the stretch in which they overlap.
+
+    The axis turns with its face, so that both outlines are taken as they move at one place: where a
+    corner is, and not at the ends of the face that it comes to.
+    """
+    across = np.array([-axis[1], axis[0]])
+    p, q = _on_axis(axis, met.one), _on_axis(axis, met.other)
+    # Without a number all count, and the answer has none either.
+    near_one = ~(p < p.max(axis=0) - _ALIKE)
+    near_other = ~(q > q.min(axis=0) + _ALIKE)
+    ends = [
+        (np.where(near, at, np.inf).min(axis=0), np.where(near, at, -np.inf).max(axis=0))
+        for near, at in (
+            (near_one, _on_axis(across, met.one)),
+            (near_other, _on_axis(across, met.other)),
+        )
+    ]
+    (low_one, high_one), (low_other, high_other) = ends
+    # Those that are past each other sidewise are nearest between both ends.
+    stretch = np.array([np.maximum(low_one, low_other), np.minimum(high_one, high_other)])
+    away, going = state_b[:2] - state_a[:2], state_a[3:5] - state_b[3:5]
+    turn = state_b[5] * (stretch - _on_axis(across, away)) - state_a[5] * stretch
+    return (_on_axis(axis, going) + turn).max(axis=0)
 
 
 class Touch(NamedTuple):
@@ -291,8 +315,7 @@ def engaged(
         """
         met, state_a, state_b = pair.at(time, cases[some])
         axis = axis_of(met, some)
-        p = axis[0] * met.one[0] + axis[1] * met.one[1]
-        q = axis[0] * met.other[0] + axis[1] * met.other[1]
+        p, q = _on_axis(axis, met.one), _on_axis(axis, met.other)
         stand = ~np.any((state_a[3:] != 0.0) | (state_b[3:] != 0.0), axis=0)
         return p.max(axis=0) - q.min(axis=0), -met.gap, stand
 
