@@ -658,6 +658,45 @@ def test_what_is_said_of_a_scene_is_in_the_units_of_its_vehicles() -> None:
         Scene(movers=far, contacts=[Contact("A", "B", **IN_LINE)]).run()
 
 
+def test_findings_of_a_scene_follow_the_units_that_are_asked_for() -> None:
+    """In every place that has them; the finding itself stays in those of its vehicles."""
+    lorry = col.Vehicle(mass=2e4, yaw_inertia=9e4, x=-12.0, y=0.4, heading=0.0, vx=15.0)
+    struck = col.Vehicle(mass=1200.0, yaw_inertia=1900.0, x=0.0, y=0.0, heading=1.57)
+    parked = struck.replace(y=-4.0, x=6.0)
+    movers = {
+        "Lorry": Mover(lorry, outline=(12.0, 2.5), drag=0.4),
+        "Car": Mover(struck, outline=(4.5, 1.8), drag=0.7),
+        "Parked": Mover(parked, outline=(4.5, 1.8), drag=0.7),
+    }
+    hit = Contact("Lorry", "Car", restitution=0.2, friction=0.4, at="touch")
+    run = Scene(movers=movers, contacts=[hit]).run()
+    numbers = {}
+    for notice in run.findings:
+        said = re.search(r"(closing|overlap) by ([0-9.]+) ?(m/s|m)\b", notice.sentence)
+        if said:
+            numbers[notice.sentence[: said.end(1)]] = float(said[2]), said[3]
+    assert {kind for _, kind in numbers.values()} == {"m", "m/s"}
+    known = {
+        "si": {"m": ("m", 1.0), "m/s": ("m/s", 1.0)},
+        "metric": {"m": ("m", 1.0), "m/s": ("km/h", 3.6)},
+        "us": {"m": ("ft", 1.0 / 0.3048), "m/s": ("mph", 1.0 / 0.44704)},
+    }
+    for units, kinds in known.items():
+        pages = (
+            " ".join(run.summary(units).notes),
+            " ".join(one.sentence for one in col.diagnose(run, units=units)),
+            str(col.report(run, units=units, form="markdown")).split("```json")[0],
+            str(col.play(run, units=units)),
+        )
+        for page in pages:
+            for begin, (value, kind) in numbers.items():
+                unit, scale = kinds[kind]
+                shown = re.search(rf"{re.escape(begin)} by ([0-9.]+)[ \u202f\u00a0]?{unit}\b", page)
+                assert shown, (units, begin)
+                # Both are rounded, a depth to two figures.
+                assert float(shown[1]) == pytest.approx(value * scale, rel=0.06)
+
+
 def sliding(vx: float, slope: Any = 0.0, **slowed: Any) -> Scene:
     body = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=0.0, y=0.0, heading=0.0, vx=vx, vy=0.0)
     return Scene(movers={"A": Mover(body, **slowed)}, contacts=[], slope=(slope, 0.0))

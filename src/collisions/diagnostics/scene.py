@@ -67,7 +67,7 @@ def diagnose_run(
             time=notice.time,
             source=NOTE,
         )
-        for notice in run.findings
+        for notice in run._findings_in(units)
     ]
     return Findings(found, measured, units, Moves(moves, units))
 

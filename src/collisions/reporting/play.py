@@ -122,7 +122,7 @@ def _written(run: Run, tracks: dict[str, Track], frames: Frames, system: Cells) 
             "after": _moment(frames, one.time),
             "said": plain(f"{as_sentence(label_of(one.code))[:-1]}: {as_sentence(one.sentence)}"),
         }
-        for one in run.findings
+        for one in run._findings_in(system.name)
     ]
     data = {
         "units": units,

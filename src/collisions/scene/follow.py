@@ -128,6 +128,23 @@ class Notice(NamedTuple):
     movers: tuple[str, ...]
 
 
+class Number(NamedTuple):
+    """A number in a notice, in SI: its value, its kind and how many figures of it are written."""
+
+    value: float
+    kind: str
+    figures: int
+
+
+class Noted(NamedTuple):
+    """A notice whose numbers are not written yet: its words, with numbers between them."""
+
+    code: str
+    words: Iterable[str | Number]
+    time: float
+    movers: tuple[str, ...]
+
+
 class _Between:
     """Two movers: what contacts they may have, whether they are apart, and their next touch."""
 
@@ -209,7 +226,7 @@ class Followed:
             [text for mover in movers.values() for text in texts_of(mover.vehicle.given)]
         )
         self.hits: list[Hit] = []
-        self.notices: list[Notice] = []
+        self.notices: list[Noted] = []
         self.failed: Any = np.full(self.count, "", dtype=object)
         # Whether two vehicles of a case go through or into each other after their contact, whether
         # a drag does not act in one that has a duration, whether two touch and no contact
@@ -237,6 +254,19 @@ class Followed:
         for hit in self.hits:
             found[hit.which] |= hit.deepest
         return found
+
+    def notices_in(self, units: str | None) -> list[Notice]:
+        """The notices with their numbers in a system of units; for None in that of the vehicles."""
+        say = self._say if units is None else Sentences(units=units)
+        return [
+            Notice(
+                noted.code,
+                "".join(word if isinstance(word, str) else say(*word) for word in noted.words),
+                noted.time,
+                noted.movers,
+            )
+            for noted in self.notices
+        ]
 
     def _all_pairs(self) -> list[_Between]:
         shapes = {
@@ -627,7 +657,7 @@ class Followed:
         if not self.single or not driven[0]:
             return
         (first, second), at = pair.names, float(ends[0])
-        deep = self._say(float(overlap[0]), "length", 2)
+        deep = Number(float(overlap[0]), "length", 2)
         how = "do not part after their contact"
         if not struck[0]:
             how = f"touch at {float(pair.met[cases[0]]):.3g} s, too slowly for a contact"
@@ -640,19 +670,21 @@ class Followed:
             self._notice_once("driven_through", text, at, pair.names)
         else:
             at = float(when[0])
-            text = (
-                f"{first} and {second} {how}, and overlap by {deep} at "
-                f"{at:.3g} s, more than then: what pushes or turns them into each other without a "
-                "blow is not followed"
+            rest = (
+                f" at {at:.3g} s, more than then: what pushes or turns them into each other "
+                "without a blow is not followed"
             )
-            self._notice_once("driven_together", text, at, pair.names)
+            words = f"{first} and {second} {how}, and overlap by ", deep, rest
+            self._notice_once("driven_together", words, at, pair.names)
 
-    def _notice_once(self, code: str, text: str, time: float, movers: tuple[str, str]) -> None:
+    def _notice_once(
+        self, code: str, words: Iterable[str | Number], time: float, movers: tuple[str, str]
+    ) -> None:
         """Note something of a pair of which the last word counts."""
         self.notices[:] = [
             notice for notice in self.notices if (notice.code, notice.movers) != (code, movers)
         ]
-        self.notices.append(Notice(code, text, time, movers))
+        self.notices.append(Noted(code, words, time, movers))
 
     def _arrange(self, pair: _Between, cases: Any) -> None:
         """When the impulse of a touch acts."""
@@ -822,7 +854,7 @@ class Followed:
                 f"the drag of {' and '.join(slid)} does not act; tyres in place of a drag do"
             )
             names = contact.a, contact.b
-            self.notices.append(Notice("drag_during_contact", text, float(time[0]), names))
+            self.notices.append(Noted("drag_during_contact", text, float(time[0]), names))
 
     def _pass_over(self, pair: _Between, which: Any, time: Any) -> None:
         """A touch in which nothing pushes: the search goes on once the two were apart."""
@@ -833,7 +865,7 @@ class Followed:
                 f"{one} and {other} touch at {float(pair.touch[0]):.3g} s and do not close where "
                 "the impulse would act; they are followed without one"
             )
-            self.notices.append(Notice("touch_passed_over", text, float(time[0]), pair.names))
+            self.notices.append(Noted("touch_passed_over", text, float(time[0]), pair.names))
         pair.due[which], pair.touch[which], pair.apart[which] = np.inf, np.nan, False
         pair.begun[which] = time
         met, *_ = self._pair(pair).at(time, which)
@@ -1156,7 +1188,7 @@ class Followed:
                 f"different friction, of which the mean, {tyres.friction:.3g}, acts on all four "
                 "while the contact lasts"
             )
-            self.notices.append(Notice("mixed_friction", text, float(time[0]), (name,)))
+            self.notices.append(Noted("mixed_friction", text, float(time[0]), (name,)))
         return tyres
 
     def _go_on(self, contact: Contact, which: Any, time: Any, states: Any, impact: Impact) -> Any:
@@ -1296,12 +1328,13 @@ class Followed:
             if not self.single or not lacking[0]:
                 continue
             time = float(times[0])
-            text = (
-                f"{one} and {other} touch at {time:.3g} s, closing by "
-                f"{self._say(float(closings[0]), 'speed', 3)}, and no "
-                "contact says what happens; they are followed as if they passed through each other"
+            words = (
+                f"{one} and {other} touch at {time:.3g} s, closing by ",
+                Number(float(closings[0]), "speed", 3),
+                ", and no contact says what happens; they are followed as if they passed through "
+                "each other",
             )
-            self.notices.append(Notice("touch_without_contact", text, time, pair.names))
+            self.notices.append(Noted("touch_without_contact", words, time, pair.names))
 
     def _not_coming(self, rule: int, contact: Contact) -> CollisionsError:
         pair = next(p for p in self._pairs if {contact.a, contact.b} == {*p.names})

@@ -179,9 +179,15 @@ class Run(Frozen, Summarized):
 
     @derived()
     def findings(self) -> tuple[Notice, ...]:
-        """What the scene does not describe, or limits its answer; of a single case."""
+        """What the scene does not describe, or limits its answer; of a single case. Numbers are in
+        the units in which the vehicles were given.
+        """
+        return self._findings_in(None)
+
+    def _findings_in(self, units: str | None) -> tuple[Notice, ...]:
+        """The findings with their numbers in a system of units, for None that of the vehicles."""
         found = self._followed
-        notices = list(found.notices)
+        notices = found.notices_in(units)
         for hit in found.hits if found.single else ():
             if bool(hit.deepest[0]):
                 contact = self.scene.contacts[hit.rule]
@@ -704,7 +710,7 @@ class Run(Frozen, Summarized):
             ]
             rows.append((name, *cells))
         parts.append(Part(rows, "Places of rest", ("x", "y", "heading")))
-        notes = [f"{one.sentence}." for one in self.findings]
+        notes = [f"{one.sentence}." for one in self._findings_in(numbers.name)]
         title = f"Scene of {', '.join(movers)}"
         if not self._followed.single:
             wrong = int((self._followed.failed != "").sum())
