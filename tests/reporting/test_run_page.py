@@ -367,6 +367,98 @@ def test_the_page_has_drag_slope_title_and_who_filed_it() -> None:
     assert "## Figures" not in col.report(slid(), form="markdown", figures=False)
 
 
+SIDE_ON = {"restitution": 0.1, "friction": 0.5}
+
+
+def side_on(*, outline: Any = (4.5, 1.8), order: Any = None, **contact: Any) -> Run:
+    """A car that strikes another in its side, of which the outline is given."""
+    a = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=-6.0, y=0.2, heading=0.0, vx=12.0)
+    b = col.Vehicle(mass=1200.0, yaw_inertia=1900.0, x=0.0, y=0.0, heading=1.57)
+    movers = {"A": Mover(a, outline=(4.5, 1.8), drag=0.7), "B": Mover(b, outline=outline, drag=0.7)}
+    hit = Contact("A", "B", **{"at": "touch", **SIDE_ON, **contact})
+    return Scene(movers=movers, contacts=[hit], order=order).run()
+
+
+def inputs_of(run: Run, units: Any = None) -> dict[str, str]:
+    """What the table of contacts says of the only one, and what is said of B."""
+    page = col.report(run, form="markdown", units=units, derivation=False, figures=False)
+    before = page[page.index("## Vehicles and ground") : page.index("## Impact 1")]
+    rows = re.findall(
+        r"^\| (?:the contact of A and B|B|order.*?) \| (.+?) \| (.+?) \|$", before, re.M
+    )
+    return dict(rows)
+
+
+@pytest.mark.parametrize(
+    ("contact", "row"),
+    [
+        ({}, ("the impulse acts after first touch by", "0.03 s, the default")),
+        ({"delay": "40 ms"}, ("the impulse acts after first touch by", "0.04 s, given as 40 ms")),
+        (
+            {"depth": "0.2 m"},
+            (
+                "the impulse acts at a depth of overlap along the normal of the face struck",
+                "0.6562 ft, given as 0.2 m",
+            ),
+        ),
+        (
+            {"depth": 0.3048, "normal": 0.0},
+            ("the impulse acts at a depth of overlap along the normal", "1 ft"),
+        ),
+        (
+            {"duration": 0.1, "delay": 0.05},
+            ("normal and point are taken after first touch by", "0.05 s"),
+        ),
+        ({"normal": 0.0, "point": (-0.9, 0.2)}, ("the impulse acts", "at first touch")),
+        ({"normal": 0.0, "point": (-0.9, 0.2)}, ("point", "given, printed with each impact")),
+        ({}, ("when", "whenever the outlines touch")),
+        ({"at": "0.5 s"}, ("when", "0.5 s")),
+        ({}, ("normal", "that of the face struck at first touch")),
+        (
+            {"plane": "crossings"},
+            ("normal", "across the line through the points where the outlines cross"),
+        ),
+        ({"normal": 0.0}, ("normal", "given, printed with each impact")),
+        ({}, ("point", "the centroid of the overlap of the outlines")),
+    ],
+)
+def test_the_page_says_how_a_contact_is_placed(contact: Any, row: tuple[str, str]) -> None:
+    what, text = row
+    assert inputs_of(side_on(**contact), "us")[what] == text
+
+
+def test_the_page_has_the_order_that_is_claimed() -> None:
+    assert inputs_of(side_on(order=[("A", "B")]))["as claimed"] == "A and B"
+    assert "as claimed" not in inputs_of(side_on())
+
+
+@pytest.mark.parametrize(
+    ("outline", "says"),
+    [
+        ((4.2, 1.7), None),
+        ((4.2, 1.7, 0.2), "0.2 m ahead of the middle of the outline"),
+        ((4.2, 1.7, -0.25), "0.25 m behind the middle of the outline"),
+        (
+            [(2.0, 0.75), (-2.2, 0.75), (-2.2, -0.95), (2.0, -0.95)],
+            "0.1 m ahead of and 0.1 m to the left of the middle of the outline",
+        ),
+    ],
+)
+def test_the_page_says_where_the_centre_of_mass_lies_in_an_outline(outline: Any, says: Any) -> None:
+    rows = inputs_of(side_on(outline=outline))
+    assert rows["outline"] == "4.2 m by 1.7 m"
+    assert rows.get("centre of mass") == says
+
+
+def test_the_page_has_the_corners_of_an_outline_that_is_no_rectangle() -> None:
+    rows = inputs_of(
+        side_on(outline=[(2.0, 0.0), (1.5, 0.8), (-2.0, 0.8), (-2.0, -0.8), (1.5, -0.8)])
+    )
+    (corners,) = (text for what, text in rows.items() if what.startswith("corners of the outline"))
+    assert corners.startswith("(2 m, 0 m); (1.5 m, 0.8")
+    assert corners.count(";") == 4
+
+
 def test_a_place_that_nothing_gives_is_not_known() -> None:
     movers = {
         name: Mover(col.Vehicle(mass=1000, vx=speed), drag=0.5)

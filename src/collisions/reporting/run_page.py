@@ -22,6 +22,7 @@ from ..quantities.reading import ArgumentReader
 from ..quantities.settings import callers_options
 from ..quantities.tables import as_sentence, cells, given_texts, label_of
 from ..quantities.units import kinds_in_degrees, shown
+from ..scene.contact import NO_POINT, USUAL_DELAY
 from ..scene.results import result_of, results_of
 from ..scene.run import Run
 from ..uncertainty import Propagation
@@ -49,6 +50,8 @@ _STATE = {
     "yaw_rate": "yaw rate",
 }
 _AT_THE_START = {"speed": "speed", "course": "course"}
+# A centre of mass this near [m] to the middle of its outline is in it.
+_CENTRED = 1e-9
 _LOOKED_AT = ("duration", "drag", "limits", "units")
 
 
@@ -258,8 +261,8 @@ def _start(sheet: Sheet, run: Run) -> None:
 
 
 def vehicles(sheet: Sheet, run: Run, marks: Mapping[str, str] | None = None) -> None:
-    """What each vehicle moves on, and the surfaces; ``marks`` are words behind numbers that were
-    not given, by their paths.
+    """What each vehicle moves on, the surfaces, and how contacts are placed; ``marks`` are words
+    behind numbers that were not given, by their paths.
     """
     rows = []
     marked = {path: f", {word}" for path, word in (marks or {}).items()}
@@ -275,10 +278,7 @@ def vehicles(sheet: Sheet, run: Run, marks: Mapping[str, str] | None = None) -> 
         if mover.vehicle.name not in ("", name):
             rows.append((of, "name of the vehicle", plain(mover.vehicle.name)))
         if mover.outline is not None:
-            length, width = (
-                sheet.number(float(size), "length") for size in np.ptp(mover.outline, axis=0)
-            )
-            rows.append((of, "outline", f"{length} by {width}"))
+            rows += ((of, what, text) for what, text in _outline(sheet, mover.outline))
         if mover.drag is not None:
             drag, word = float(mover.drag), marked.get(f"{name}.drag", "")
             text = sheet.system.answer(drag, "number") if word else sheet.number(drag, "number")
@@ -292,12 +292,8 @@ def vehicles(sheet: Sheet, run: Run, marks: Mapping[str, str] | None = None) -> 
         for name, tyres in contact.tyres_after.items():
             rows += wheels(plain(name), tyres, f"contacts[{number}].tyres_after.{name}", when)
     for number, (corners, friction) in enumerate(run.scene.surfaces):
-        places = "; ".join(
-            f"({', '.join(sheet.number(float(part), 'length') for part in corner)})"
-            for corner in np.asarray(corners).tolist()
-        )
         of = f"surface {number + 1}"
-        rows.append((of, "corners", places))
+        rows.append((of, "corners", _corners(sheet, corners)))
         rows.append((of, "friction", sheet.number(float(friction), "number")))
     slopes = [float(part) for part in run.scene.slope]
     if any(slopes):
@@ -307,6 +303,88 @@ def vehicles(sheet: Sheet, run: Run, marks: Mapping[str, str] | None = None) -> 
         rows.append((plain(name), "one and the same number", listed))
     sheet.heading("Vehicles and ground")
     sheet.table(rows)
+    rows = [
+        row
+        for number in range(len(run.scene.contacts))
+        for row in _placed(sheet, run, number, marked)
+    ]
+    if run.scene.order is not None:
+        claimed = ", then ".join(f"{one} and {other}" for one, other in run.scene.order)
+        rows.append(("order", "as claimed", plain(claimed)))
+    if rows:
+        sheet.heading("How each contact is placed")
+        sheet.table(rows)
+
+
+def _outline(sheet: Sheet, outline: Any) -> Iterator[tuple[str, str]]:
+    """The size of an outline, and where the centre of mass lies in it; of one that is no rectangle
+    its corners.
+    """
+    length, width = (sheet.number(float(size), "length") for size in np.ptp(outline, axis=0))
+    yield "outline", f"{length} by {width}"
+    ends = np.array([outline.min(axis=0), outline.max(axis=0)])
+    if len(outline) != 4 or not np.all((outline == ends[0]) | (outline == ends[1])):
+        yield (
+            "corners of the outline from the centre of mass, forward and left",
+            _corners(sheet, outline),
+        )
+        return
+    off = [
+        f"{sheet.number(abs(float(part)), 'length')} {sides[int(part < 0.0)]}"
+        for part, sides in zip(
+            -ends.mean(axis=0),
+            (("ahead of", "behind"), ("to the left of", "to the right of")),
+            strict=True,
+        )
+        if abs(float(part)) > _CENTRED
+    ]
+    if off:
+        yield "centre of mass", f"{' and '.join(off)} the middle of the outline"
+
+
+def _corners(sheet: Sheet, corners: Any) -> str:
+    return "; ".join(
+        f"({', '.join(sheet.number(float(part), 'length') for part in corner)})"
+        for corner in np.asarray(corners).tolist()
+    )
+
+
+def _placed(
+    sheet: Sheet, run: Run, number: int, marked: Mapping[str, str]
+) -> Iterator[tuple[str, str, str]]:
+    """When a contact of the scene acts, and where its normal and its point come from; ``marked``
+    are words behind numbers that were not given, by their paths.
+    """
+    contact = run.scene.contacts[number]
+    of = plain(contact_in_words(run.scene, number))
+
+    def given(name: str, kind: str) -> str:
+        value = float(getattr(contact, name))
+        if word := marked.get(f"contacts[{number}].{name}"):
+            return sheet.system.answer(value, kind) + word
+        return sheet.as_given(value, kind, contact.given.get(name))
+
+    yield of, "when", "whenever the outlines touch" if contact.touches else given("at", "time")
+    known = "given, printed with each impact"
+    if contact.touches:
+        what = "normal and point are taken" if contact.in_time else "the impulse acts"
+        if not contact.from_outlines:
+            yield of, what, "at first touch"
+        elif contact.depth is not None:
+            along = "the normal" if contact.normal is not None else "the normal of the face struck"
+            yield of, f"{what} at a depth of overlap along {along}", given("depth", "length")
+        else:
+            delay = f"{sheet.number(float(USUAL_DELAY), 'time')}, the default"
+            text = delay if contact.delay is None else given("delay", "time")
+            yield of, f"{what} after first touch by", text
+    normal = {
+        "face": "that of the face struck at first touch",
+        "crossings": "across the line through the points where the outlines cross",
+    }[contact.plane]
+    yield of, "normal", normal if contact.normal is None else known
+    if contact.model not in NO_POINT:
+        point = "the centroid of the overlap of the outlines"
+        yield of, "point", point if contact.point is None else known
 
 
 def _figures(sheet: Sheet, run: Run, units: str, wanted: bool, draws: bool) -> None:

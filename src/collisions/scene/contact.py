@@ -32,7 +32,7 @@ PLANES, MODELS = (
     ("linear_central", "oblique_central", "eccentric", "time_resolved", "solve"),
 )
 IN_TIME = "time_resolved"
-_NO_POINT = ("linear_central", "oblique_central")
+NO_POINT = ("linear_central", "oblique_central")
 
 
 @dataclass(frozen=True, slots=True, init=False, eq=False, repr=False)
@@ -271,7 +271,7 @@ class Contact(Shown):
     @property
     def from_outlines(self) -> bool:
         """Whether the normal, or a point that the model needs, comes from the outlines."""
-        return self.normal is None or (self.point is None and self.model not in _NO_POINT)
+        return self.normal is None or (self.point is None and self.model not in NO_POINT)
 
     def _texts(self) -> Iterable[Any]:
         after = (text for tyres in self.tyres_after.values() for text in texts_of(tyres.given))
@@ -371,7 +371,7 @@ def _check(reader: ArgumentReader, found: Mapping[str, Any], rules: Mapping[str,
     elif len(given) != 1:
         text = one_rule(rules, given)
         reader.refuse(InputError(text, code="one_tangential", argument=FRICTION))
-    if found["point"] is not None and model in _NO_POINT:
+    if found["point"] is not None and model in NO_POINT:
         refuse(f"model {model!r} has no point; leave point out, or use eccentric", "point")
     elif found["point"] is not None and found["normal"] is None:
         text = (
@@ -380,7 +380,7 @@ def _check(reader: ArgumentReader, found: Mapping[str, Any], rules: Mapping[str,
         reader.refuse(MissingInputError(text, code="missing_normal", argument="normal"))
     if found["depth"] is not None and found["delay"] is not None:
         refuse("give `depth=` or `delay=`, not both: each says when the impulse acts", "depth")
-    whole = found["normal"] is not None and (found["point"] is not None or model in _NO_POINT)
+    whole = found["normal"] is not None and (found["point"] is not None or model in NO_POINT)
     for name in ("depth", "delay"):
         if found[name] is None:
             continue
@@ -388,7 +388,7 @@ def _check(reader: ArgumentReader, found: Mapping[str, Any], rules: Mapping[str,
             refuse(f"{name} is counted from first touch; write `at='touch'` with it", name)
         elif whole:
             known = "normal and point are given"
-            if model in _NO_POINT:
+            if model in NO_POINT:
                 known = "normal is given, and the model has no point"
             refuse(f"{known}, so the impulse acts at first touch; leave {name} out", name)
     if (
@@ -418,7 +418,7 @@ def _check(reader: ArgumentReader, found: Mapping[str, Any], rules: Mapping[str,
                 "model 'time_resolved' follows a contact to its end; leave incomplete out",
                 "incomplete",
             )
-    if found["duration"] is not None and model in _NO_POINT:
+    if found["duration"] is not None and model in NO_POINT:
         refuse(f"model {model!r} takes no time; leave duration out, or use eccentric", "duration")
     law = found["law"]
     if (
