@@ -292,6 +292,32 @@ def test_the_plane_through_the_crossings_is_that_of_both_points_where_outlines_c
     assert abs(plane.normal_angle - face.normal_angle) < math.radians(40.0)
 
 
+@pytest.mark.parametrize("plane", ["face", "crossings"])
+def test_a_depth_is_along_the_normal_of_the_face_that_was_struck(plane: str) -> None:
+    """A corner of A comes straight into the side of B, which stands with it across its way."""
+    heading, depth = 0.5, 0.25
+    a = col.Vehicle(mass=1500.0, vx=15.0, x=-8.0, y=0.0, yaw_inertia=2400.0, heading=heading)
+    b = col.Vehicle(mass=1300.0, x=0.0, y=0.0, yaw_inertia=2000.0, heading=math.radians(90.0))
+    rule = {"restitution": 0.1, "friction": 0.5, "at": "touch", "depth": depth}
+    crash = Scene(
+        movers={"A": Mover(a, outline=OUTLINE), "B": Mover(b, outline=OUTLINE)},
+        contacts=[Contact("A", "B", plane=plane, **rule)],
+    )
+    run = crash.run()
+    # The corner of A that is ahead, before the side of B.
+    half = 0.5 * OUTLINE[0], 0.5 * OUTLINE[1]
+    reach = half[0] * math.cos(heading) + half[1] * math.sin(heading)
+    assert run.times[0] == pytest.approx((8.0 - reach - half[1] + depth) / 15.0, abs=1e-9)
+    # Both sides of the corner cross that side of B, so that here the planes are one.
+    assert run.impacts[0].normal == pytest.approx((1.0, 0.0), abs=1e-9)
+    # Near the end of B only one of them does, and the other crosses that end.
+    movers = {**crash.movers, "A": Mover(a.replace(y=1.81), outline=OUTLINE)}
+    run = Scene(movers=movers, contacts=crash.contacts).run()
+    assert run.times[0] == pytest.approx((8.0 - reach - half[1] + depth) / 15.0, abs=1e-9)
+    assert (run.impacts[0].normal[0] > 0.999) == (plane == "face")
+    assert not run.deepest[0]
+
+
 def test_a_duration_alone_is_followed_in_time() -> None:
     rule = {"restitution": 0.1, "friction": 0.5}
     assert Contact("A", "B", **rule).model == "eccentric"

@@ -42,8 +42,8 @@ class Contact(Shown):
     The normal and the point are given, or come from the outlines. With the plane "face" the normal
     is that of the face struck at first touch (of the two edges at a corner the one whose overlap
     stays least), and turns with its vehicle; the point is the centroid of the overlap at a
-    ``depth`` along the normal, or ``delay`` after first touch. A pair that parts before is taken at
-    its deepest. With "crossings" the plane goes through the two points where the outlines cross.
+    ``depth`` along that normal, or ``delay`` after first touch. A pair that parts before is taken
+    at its deepest. With "crossings" the plane goes through the two points where the outlines cross.
     Meanwhile both vehicles move on as if nothing held them.
 
     A pair is one contact until its outlines were 0.05 m apart. When it then touches again at 1 m/s
@@ -70,9 +70,10 @@ class Contact(Shown):
         0.5 m of each other where normal and point are given; or whenever the outlines meet and
         close by 0.02 m/s or more.
     depth : float, str, Quantity or array [m], optional
-        Overlap along the normal at which the impulse acts, however long after first touch. Where
-        the two part before, or stop, it acts at their deepest; where neither comes within 1,000 s
-        it is refused.
+        Overlap at which the impulse acts, however long after first touch: along the normal of the
+        face struck at first touch, with the plane "crossings" too, whose own normal is another; or
+        along ``normal`` where that is given. Where the two part before, or stop, it acts at their
+        deepest; where neither comes within 1,000 s it is refused.
     delay : float, str, Quantity or array [s], optional
         Time from first touch to the impulse, 0.03 s if no depth is given.
     plane : {"face", "crossings"}, optional
