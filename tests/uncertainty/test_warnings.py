@@ -522,6 +522,25 @@ def test_many_studies_within_a_model_that_differ_in_numbers_alone_are_one_statem
     assert sum("as an instant" in text for text in found.statements) == 1
 
 
+def test_what_a_study_within_a_model_says_of_things_with_numbered_names_is_all_said():
+    def twice(value):
+        for name in ("contacts[0]", "contacts[1]", "speed_1", "speed_2"):
+            warn(col.CollisionsWarning(f"{name} is {value:.3g}", code="named"))
+        return {"twice": 2.0 * value}
+
+    def model(x):
+        inner = propagate(
+            lambda z: {"z": [twice(one)["twice"] for one in z.tolist()]},
+            {"z": Normal(1.0, 1e-9)}, samples=64, seed=1,
+        )  # fmt: skip
+        return {"x": x * inner["z"].mean}
+
+    found, _ = quiet(lambda: propagate(model, {"x": Normal(1.0, 0.1)}, samples=64, seed=1))
+    for name in ("contacts[0]", "contacts[1]", "speed_1", "speed_2"):
+        (said,) = [text for text in found.statements if f"{name} is 1" in text]
+        assert "several" not in said
+
+
 @pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
 def test_what_a_study_that_works_back_says_is_said_wherever_it_is():
     """A fit within ``propagate``, and ``propagate`` within a fit: both work back."""

@@ -36,7 +36,8 @@ INNER = "inner_study"
 # Before each sentence of such a study, and before one of many that differ in their numbers.
 _WITHIN = "in a study within the model, "
 _WITHIN_SEVERAL = "in several studies within the model, of which one says: "
-_NUMBERS = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+# Numbers, but for those in names, such as contacts[0] and speed_1.
+_NUMBERS = re.compile(r"(?<![\w\[.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w\]])")
 
 
 class Said(NamedTuple):
