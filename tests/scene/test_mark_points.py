@@ -177,6 +177,34 @@ def test_a_mark_ends_where_the_use_of_friction_falls_below_90_percent(lock: floa
     assert ends == pytest.approx(found[last][1:], abs=2e-3)
 
 
+@pytest.mark.parametrize("model", ["time_resolved", "eccentric"])
+@pytest.mark.parametrize("duration", [0.1, 0.2])
+def test_wheels_mark_while_a_contact_lasts(duration: float, model: str) -> None:
+    """A, with locked wheels, runs into the side of a car on wheels that roll, and pushes it aside
+    from where it stands.
+    """
+    a = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=-6.0, y=0.0, heading=0.0, vx=16.0)
+    b = col.Vehicle(mass=1200.0, yaw_inertia=2000.0, x=0.85, y=0.0, heading=np.pi / 2)
+    movers = {
+        "A": Mover(a, outline=(4.6, 1.8), tyres=Tyres(0.7, 1.0, 2.7, 1.5)),
+        "B": Mover(b, outline=(4.4, 1.7), tyres=Tyres(0.7, 0.02, 2.7, 1.5)),
+    }
+    hit = Contact(
+        "A", "B", restitution=0.15, friction=0.5, at="touch", duration=duration, model=model
+    )
+    scene = Scene(movers=movers, contacts=[hit])
+    run = scene.run()
+    places = []
+    for part in (0.2, 0.5, 0.8):
+        car = run.at(run.times[0] + part * duration)["A"]
+        c, s = np.cos(car.heading), np.sin(car.heading)
+        places.append((car.x + 1.35 * c - 0.75 * s, car.y + 1.35 * s + 0.75 * c))
+    found = asked(scene, paths_of("A", "front_left", np.array(places)))
+    assert found == pytest.approx(0.0, abs=2e-3)
+    begin = asked(scene, ["B.marks.front_left.begin.x", "B.marks.rear_right.begin.x"])
+    assert begin == pytest.approx([0.1, 1.6], abs=1e-3)
+
+
 @pytest.mark.parametrize("case", range(3))
 def test_a_batch_has_the_distances_of_its_cases(case: int) -> None:
     scene = crash()

@@ -27,9 +27,10 @@ if TYPE_CHECKING:
     from .scene import Scene
 
 WHEELS = tuple(wheel.replace(" ", "_") for wheel in IN_WORDS)
-# Places along the mark of one motion: a wheel that turns within a few metres is then a millimetre
-# or a few from the chords between them, and a survey some centimetres.
-_PLACES = 101
+# Places along the mark of one motion, and of the way while a contact lasts: a wheel that turns
+# within a few metres is a millimetre or a few from the chords between them, and a survey some
+# centimetres.
+_PLACES, _IN_CONTACT = 101, 21
 # How near to rest a motion is followed, as a share of its time.
 _BEFORE_REST = 1e-6
 # of the time from one place to the next, until it is known where a mark begins or ends
@@ -307,46 +308,54 @@ def _lines(run: Run, name: str, wheels: Sequence[int]) -> Iterator[tuple[Any, An
     course = run._followed.courses[name]
     legs = course.settled()
     for number, leg in enumerate(legs):
-        if leg.followed is None:
+        if leg.tyres is None:
             continue
         next_start = np.full(course.count, np.inf)
         for later in reversed(legs[number + 1 :]):
             next_start[later.which] = later.start
-        starts = leg.start + leg.hold
-        until = next_start[leg.which] - starts
+        until = next_start[leg.which] - leg.start
         # A contact may come before the motion after another has begun.
-        moving = np.flatnonzero((leg.place >= 0) & (until > 0.0))
+        moving = np.flatnonzero(((leg.place >= 0) | (leg.hold > 0.0)) & (until > 0.0))
         for begin in range(0, len(moving), _BLOCK):
             some = moving[begin : begin + _BLOCK]
             lines = _lines_of(run, name, leg, some, until[some], wheels)
-            yield starts[some], leg.which[some], lines
+            yield leg.start[some], leg.which[some], lines
 
 
 def _lines_of(
     run: Run, name: str, leg: Leg, some: Any, until: Any, wheels: Sequence[int]
 ) -> list[_Line]:
-    """The marks of some wheels in one motion of some of its cases, until a time of each."""
-    assert leg.followed is not None
-    place, last = leg.place[some], np.isinf(until)
-    ends = until.copy()
-    # At rest a wheel uses no friction, and until then as much as in the moment before.
-    ends[last] = (1.0 - _BEFORE_REST) * leg.followed.ends(place[last])
-    times = _moments(ends, last)
-    if run._followed.ground.surfaces:
-        # No step goes over an edge: what lies between two, however narrow, has the middle of one.
-        steps = np.minimum(leg.followed.steps(place), ends)
-        times = np.sort(np.concatenate([times, 0.5 * (steps[1:] + steps[:-1])]), axis=0)
-    every = np.arange(len(some))
-    found = _seen(run, name, leg, some, times, every)
+    """The marks of some wheels in one motion of some of its cases, until a time of each; while a
+    contact lasts, too.
+    """
+    hold = np.minimum(leg.hold[some], until)
+    ends, last = until.copy(), np.isinf(until)
+    ends[last] = hold[last]
+    moments = [hold * np.linspace(0.0, 1.0, _IN_CONTACT)[:, None]] if np.any(hold) else []
+    on = np.flatnonzero(leg.place[some] >= 0)
+    if leg.followed is not None and len(on):
+        place, rests = leg.place[some[on]], last[on]
+        # At rest a wheel uses no friction, and until then as much as in the moment before.
+        ends[on] += np.where(rests, (1.0 - _BEFORE_REST) * leg.followed.ends(place), 0.0)
+        after = np.zeros((_PLACES, len(some)))
+        after[:, on] = _moments((ends - hold)[on], rests)
+        moments.append(hold + after)
+        # No step goes over an edge of a surface, and steps are short where the motion bends: what
+        # marks for a moment has the middle of one.
+        steps = leg.followed.steps(place)
+        middles = np.zeros((len(steps) - 1, len(some)))
+        middles[:, on] = 0.5 * (steps[1:] + steps[:-1])
+        moments.append(np.minimum(hold + middles, ends))
+    times = np.sort(np.concatenate(moments), axis=0)
+    found = _seen(run, name, leg, some, times, np.arange(len(some)))
     return [_line(run, name, leg, some, times, found, wheel) for wheel in wheels]
 
 
 def _seen(run: Run, name: str, leg: Leg, some: Any, times: Any, columns: Any) -> OnTyres:
     """What the tyres do at times (..., columns) of some cases, of which these are the columns."""
-    assert leg.followed is not None
     assert leg.tyres is not None
     case = np.broadcast_to(some[columns], times.shape).ravel()
-    states = leg.followed.at(times.ravel(), leg.place[case])
+    states = leg.at(leg.start[case] + times.ravel(), case)
     mover, ground = run.scene.movers[name], run._followed.ground
     return on_tyres(leg.tyres, mover, ground, states, leg.which[case])
 

@@ -624,7 +624,6 @@ class Run(Frozen, Summarized):
         # What moves on unslowed does so on a slope too.
         if found.ground.steepest and (leg.tyres is not None or mover.drag is not None):
             power = power + on_slope(mover, found.ground, state)
-        marks = np.where(held, np.nan, marks)
         pulls = 0.0
         if leg.pull is not None:
             pulls = -mover.vehicle.mass * (leg.pull[0, 0] * state[3] + leg.pull[1, 0] * state[4])
