@@ -118,11 +118,25 @@ def test_marks_grow_to_those_of_the_run() -> None:
     last = len(data_of(page)["times"]) - 1
     first, at_end = moved(page, ("move", "time", last))
     gap = np.full((1, 2), np.nan)
-    x, y = np.concatenate([np.concatenate([one, gap]) for one in places(at_end["scene"], "mark")]).T
-    for name in NAMES:
-        for marked in map(np.array, run.paths[name].marks.values()):
-            assert furthest_from(x, y, marked[:, np.isfinite(marked[0])]) < 5e-3
+    stretches = places(at_end["scene"], "mark")
+    x, y = np.concatenate([part for one in stretches for part in (one, gap)]).T
+    tracks = [np.array(mark).T for name in NAMES for mark in run.paths[name].marks.values()]
+    of_run = np.concatenate([part for one in tracks for part in (one, gap)]).T
+    # From the one to the other: places lie on the lines, within a step of the run's clock.
+    assert furthest_from(x, y, of_run[:, np.isfinite(of_run[0])]) < 5e-3
+    assert furthest_from(*of_run, np.array([x, y])[:, np.isfinite(x)]) < 0.4
+    assert np.nanmax(np.hypot(np.diff(x), np.diff(y))) < 0.5
     assert not any(len(stretch) > 3 for stretch in places(first["scene"], "mark"))
+
+
+def test_a_mark_is_drawn_from_its_begin_to_its_end() -> None:
+    page = col.play(over_ice())
+    last = len(data_of(page)["times"]) - 1
+    (_, at_end) = moved(page, ("move", "time", last))
+    marks = places(at_end["scene"], "mark")
+    assert len(marks) == 4
+    for mark in marks:
+        assert (mark[0, 0], mark[-1, 0]) == pytest.approx((30.05, 30.45), abs=1e-5)
 
 
 def test_what_is_said_of_contacts() -> None:

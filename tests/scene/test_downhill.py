@@ -181,6 +181,28 @@ def test_what_stops_uphill_and_rolls_back_is_refused_before_it_is_struck() -> No
         assert many == pytest.approx([math.nan, early], nan_ok=True, rel=1e-9)
 
 
+def test_one_that_rolls_back_meanwhile_is_refused_and_a_level_case_beside_it_is_not() -> None:
+    """It stops uphill within a second, and could roll anywhere until the others meet. On the level
+    it stands.
+    """
+    movers = {
+        "A": car(10.0, 0.0, slowed={"drag": 0.7}),
+        "B": car(0.0, 10.0, slowed={"drag": 0.1}),
+        "C": car(0.5, 60.0, slowed={"drag": 0.02}),
+    }
+    hits = [Contact("A", "B", **IN_LINE)]
+    asked = ["contacts[0].impact.closing_speed"]
+    scene = Scene(movers=movers, contacts=hits, slope=(np.array([0.0, 0.05]), 0.0))
+    with pytest.warns(col.CollisionsWarning, match="never_stops"):
+        (found,) = scene.as_model([], asked)().values()
+    (alone,) = scene.case(0).as_model([], asked)().values()
+    assert found.m_as("m/s")[0] == pytest.approx(alone.m_as("m/s"), rel=1e-12)
+    assert math.isnan(found.m_as("m/s")[1])
+    with pytest.raises(col.NoSolutionError) as refused:
+        scene.case(1).as_model([], asked)()
+    assert refused.value.code == "never_stops"
+
+
 def test_a_case_that_rolls_back_before_two_contacts_has_the_reason_that_it_has_alone() -> None:
     """The contact of the other two does not come either."""
     movers = {

@@ -131,6 +131,18 @@ def test_a_lorry_that_goes_into_a_car_it_struck_and_comes_out_again(y: float, sl
     assert "do not part after their contact, and overlap by" in said
 
 
+def test_a_lorry_that_goes_right_through_a_car_in_a_contact_that_lasts() -> None:
+    """However deep the contact itself left them."""
+    movers = {
+        "Lorry": Mover(body(-15.0, 22.0, 18000.0), outline=(8.0, 2.5), drag=0.1),
+        "Car": Mover(body(0.0, 0.0).replace(y=0.8), outline=CAR, tyres=Tyres(0.8, 1.0, 2.7, 1.5)),
+    }
+    hit = Contact("Lorry", "Car", restitution=0.1, friction=0.3, at="touch", duration=0.12)
+    run = Scene(movers=movers, contacts=[hit]).run()
+    assert run.rest["Lorry"].x > run.rest["Car"].x + 100.0
+    assert "driven_through" in [notice.code for notice in run.findings]
+
+
 @pytest.mark.parametrize("speed", [3.1, 3.2, 4.0])
 def test_a_second_blow_does_not_take_away_the_touch_that_a_first_one_made(speed: float) -> None:
     """Cars of 4 m in line, of which C and D have met and part slowly, 0.02 m from each other. B

@@ -167,6 +167,8 @@ class _Between:
         self.met: Any = np.zeros(count)
         self.side: Any = np.zeros((2, count))
         self.depth: Any = np.zeros(count)
+        # How deep a contact that was followed in time left them.
+        self.crushed: Any = np.zeros(count)
         self.allowed: Any = np.full(count, np.inf)
         self.least: Any = np.full(count, _LEAST_CLOSING)
         # The next touch and how fast it closes; NaN where it has to be looked for.
@@ -193,7 +195,7 @@ class _Between:
         some = cases[fresh]
         self.met[some] = np.broadcast_to(time, cases.shape)[fresh]
         self.side[:, some] = side[:, fresh]
-        self.depth[some] = np.maximum(-met.gap, 0.0)[fresh]
+        self.depth[some] = self.crushed[some] = np.maximum(-met.gap, 0.0)[fresh]
         self.allowed[some] = allowed
 
 
@@ -460,9 +462,9 @@ class Followed:
                 comes = comes & ~many
             if not comes.any():
                 break
-            if self.ground.steepest:
-                # Up to then others may come to touch.
-                some = np.flatnonzero(comes)
+            # Up to then others may come to touch; on the level all motion is known.
+            some = np.flatnonzero(comes & self.ground.sloped)
+            if len(some):
                 comes[some] = self._refuse_lost(outlined, some, times[some])
             now = np.where(comes, times, now)
             for rule in np.unique(rules[comes]).tolist():
@@ -652,7 +654,9 @@ class Followed:
             between, *_ = moving.at(moments, cases)
             when = np.where(-between.gap > overlap, moments, when)
             overlap = np.maximum(overlap, -between.gap)
-        driven = overlap > pair.depth[cases] + pair.allowed[cases]
+        # One that is on the other side has gone through it, however deep their contact was.
+        before = np.where(beyond & apart, pair.depth[cases], pair.crushed[cases])
+        driven = overlap > before + pair.allowed[cases]
         self.driven[cases[driven]] = True
         if not self.single or not driven[0]:
             return
@@ -828,14 +832,16 @@ class Followed:
         if contact.duration is not None:
             self._note_drags(contact, which, time)
         if pair.shapes is not None:
-            # A contact followed in time crushes both until it ends.
-            met, *_ = self._pair(pair).at(ends, which)
+            moving = self._pair(pair)
+            met, *_ = moving.at(time, which)
             pair.struck[which] = time
         sign = 1.0 if contact.a == pair.names[0] else -1.0
         for row, part in zip(pair.way, impact.normal, strict=True):
             row[which] = sign * part
         if pair.shapes is not None:
             pair.meets(which, ends, met, pair.way[:, which], _DEEPER)
+            crushed = np.maximum(-moving.at(ends, which)[0].gap, 0.0)
+            pair.crushed[which] = np.maximum(pair.depth[which], crushed)
         for other in self._pairs:
             if other is pair or not {contact.a, contact.b} & {*other.names}:
                 continue

@@ -665,6 +665,11 @@ class Ground:
         """The greatest rise over run in any case."""
         return float(np.max(np.hypot(*self.slope), initial=0.0))
 
+    @property
+    def sloped(self) -> Any:
+        """Which cases are not on the level."""
+        return (self.cases(self.slope[0]) != 0.0) | (self.cases(self.slope[1]) != 0.0)
+
     def rises(self, take: Callable[[Any], Any]) -> tuple[Any, Any]:
         """The slope of some cases."""
         return take(self.slope[0]), take(self.slope[1])
