@@ -94,6 +94,11 @@ class During:
         """Time and state at the start and the end, (7, 2, cases)."""
         return self.contact.ends[self.label][:, :, self.cases]
 
+    @property
+    def moments(self) -> Any:
+        """From the start on the times between which the states of a single case are cubics [s]."""
+        return np.linspace(0.0, self.ends[0, 1, 0], _MOMENTS)
+
     def at(self, time: Any, some: Any) -> Any:
         """The states of some of the cases, each at its time."""
         cases = self.cases[some]

@@ -636,7 +636,8 @@ class Run(Frozen, Summarized):
         found, total = self._followed, 0.0
         course = found.courses[name]
         # The power jumps where a contact ends that the vehicle was held in, bends where a drag has
-        # stopped it, and jumps where a wheel comes to an edge, at which a step ends.
+        # stopped it and at the moments of a contact that was followed in time, and jumps where a
+        # wheel comes to an edge, at which a step ends.
         jumps: list[float] = []
         for leg in course.settled():
             acts = float(leg.start[0] + leg.hold[0])
@@ -646,6 +647,8 @@ class Run(Frozen, Summarized):
                 else leg.followed.steps(np.zeros(1, dtype=int))[:, 0].tolist()
             )
             jumps += [acts, acts + float(leg.stops[0]), *(acts + moment for moment in steps)]
+            if leg.during is not None:
+                jumps += (leg.start[0] + leg.during.moments).tolist()
         for begin, end in pairwise(self._bounds()[:, 0].tolist()):
             if end <= begin:
                 continue
