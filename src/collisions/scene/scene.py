@@ -63,7 +63,8 @@ class Scene(Shown):
         Rise over run of the ground along x and along y, from -100 to 100, for movers with tyres or
         a drag. Places are in plan, speeds and times along the ground, as in ``travel.simulate``.
         While a contact with a duration lasts it pulls both vehicles alike, by 0.1 m/s in 0.1 s on a
-        slope of 10 %; a contact without one takes no time. A mover with a drag goes straight on
+        slope of 10 %, which is in their ways and not in the impact; a contact without one takes no
+        time. A mover with a drag goes straight on
         also across a slope, which would bend the way of a sliding one: by 1 m of 14 m at 10 %. Give
         it tyres there. What gains speed down a slope is followed as far as its contacts need it,
         and what stops on a slope that it would roll back down is refused if that comes before its
