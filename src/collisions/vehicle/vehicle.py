@@ -468,13 +468,6 @@ class Vehicle(_AsGiven):
                 repr(value) if f.name == "name" else format_value(value, f.metadata["unit"]),
             )
 
-    def __getstate__(self) -> dict[str, Any]:
-        return {name: getattr(self, name) for name in (*NAMES, "given")}
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        for name, value in state.items():
-            object.__setattr__(self, name, read_only(value))
-
 
 def _refuse_setting(vehicle: Vehicle, name: str, value: Any = None) -> None:
     raise FrozenInstanceError(
@@ -482,10 +475,25 @@ def _refuse_setting(vehicle: Vehicle, name: str, value: Any = None) -> None:
     )
 
 
+def _state(vehicle: Vehicle) -> dict[str, Any]:
+    """What a pickle and a copy have."""
+    return {name: getattr(vehicle, name) for name in (*NAMES, "given")}
+
+
+def _set_state(vehicle: Vehicle, state: Mapping[str, Any]) -> None:
+    for name, value in state.items():
+        object.__setattr__(vehicle, name, read_only(value))
+
+
 # Those that dataclass generates raise a TypeError for names that are not fields, because of the
-# slots.
-for _name in ("__setattr__", "__delattr__"):
-    setattr(Vehicle, _name, _refuse_setting)
+# slots; and Python 3.11.2 puts its own in place of a state that the class itself has.
+for _name, _function in (
+    ("__setattr__", _refuse_setting),
+    ("__delattr__", _refuse_setting),
+    ("__getstate__", _state),
+    ("__setstate__", _set_state),
+):
+    setattr(Vehicle, _name, _function)
 
 NAMES = tuple(f.name for f in fields(Vehicle))
 UNITS = {f.name: f.metadata["unit"] for f in fields(Vehicle) if f.metadata}
@@ -593,7 +601,7 @@ def moved(
 def with_given(vehicle: Vehicle, given: Mapping[str, str]) -> Vehicle:
     """The vehicle with other texts for its numbers."""
     other: Vehicle = object.__new__(Vehicle)
-    other.__setstate__({**vehicle.__getstate__(), "given": Texts(given)})
+    _set_state(other, {**_state(vehicle), "given": Texts(given)})
     return other
 
 
