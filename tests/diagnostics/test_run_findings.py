@@ -100,6 +100,7 @@ def test_limits_count_for_every_impact() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::collisions.OutOfRangeWarning")
 def test_evidence_of_one_impact_is_refused() -> None:
     run = three_cars()
     with pytest.raises(col.InputError, match=r"diagnose\(run.impacts\[0\], crush_energy=...\)"):

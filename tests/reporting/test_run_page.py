@@ -90,6 +90,7 @@ def test_every_vehicle_has_its_state_at_the_start() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::collisions.OutOfRangeWarning")
 def test_ranges_stand_under_words_and_not_under_paths() -> None:
     run = three_cars()
     inputs = {
@@ -100,7 +101,9 @@ def test_ranges_stand_under_words_and_not_under_paths() -> None:
     outputs = ["impacts[0].a.delta_v", "times[0]", "Camry.marks.front_left.end.x"]
     spread = propagate(run.scene, inputs, outputs=outputs, samples=64, seed=1)
     page = col.report(run, uncertainty=spread, form="markdown", figures=False)
-    said = page[: page.index("## Record")]
+    # A finding advises to observe a path.
+    lines = page[: page.index("## Record")].splitlines()
+    said = "\n".join(line for line in lines if "do not part right after their" not in line)
     assert not re.search(r"contacts\\?\[|impacts\\?\[|times\\?\[|\.vx|tyres\.|marks\.", said)
     assert "**delta-V of Camry, impact 1 (0.00 s):**" in said
     assert said.count("**delta-V of Camry, impact 1") == 1
@@ -256,6 +259,7 @@ def test_html_of_what_moves_on_and_has_a_name_like_markup() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::collisions.OutOfRangeWarning")
 def test_options_of_one_impact_are_refused_together() -> None:
     with pytest.raises(col.CollisionsError) as caught:
         col.report(
@@ -285,7 +289,7 @@ def test_a_propagation_of_the_scene_has_its_ranges_in_the_answer() -> None:
     }
     names = list(words)
     # B brakes harder than A behind it, which runs into it again where they part slowly.
-    with pytest.warns(col.OutOfRangeWarning, match="do not part after their contact"):
+    with pytest.warns(col.OutOfRangeWarning, match="do not part right after their contact"):
         spread = propagate(run.scene, inputs, outputs=names, samples=64, seed=0)
     page = col.report(run, form="markdown", uncertainty=spread)
     answer = page[: page.index("## Vehicles")]
@@ -302,7 +306,7 @@ def test_a_propagation_of_the_scene_has_its_ranges_in_the_answer() -> None:
     assert "| Inputs as stated | velocity along x of A at the start | 12 ± 0.5 m/s |" in part
     assert "0.05 to 0.2, all values equally likely |" in part
     assert "64 cases, all with an answer, seed 0" in part
-    assert "do not part after their contact" in part
+    assert "do not part right after their contact" in part
     assert replay(page) == run
     other = run.scene.replace({"A.vx": 20.0}).run()
     assert "lies outside the 95 percent interval" in col.report(

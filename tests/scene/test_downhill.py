@@ -236,7 +236,7 @@ def test_a_car_that_rolls_down_is_refused_where_its_rest_is_asked_for() -> None:
     path = "contacts[0].impact.closing_speed"
     speed = math.sqrt(64.0 + 2.0 * gain(0.05) * 10.5 / math.cos(math.atan(0.05)))
     # A then rolls on against B, which limits other answers.
-    with pytest.warns(col.CollisionsWarning, match="do not part after their contact"):
+    with pytest.warns(col.CollisionsWarning, match="do not part right after their contact"):
         found = scene(None).as_model([], [path])()[path].magnitude
     assert found == pytest.approx(speed, rel=1e-6)
     # One case of a batch whose wheels go on without end is no reason to lose the others.
@@ -244,7 +244,7 @@ def test_a_car_that_rolls_down_is_refused_where_its_rest_is_asked_for() -> None:
     some = scene({"A": LOCKED.replace(lock=lock)})
     with (
         pytest.warns(col.CollisionsWarning, match="1 of 2 cases .*1 never_stops"),
-        pytest.warns(col.CollisionsWarning, match="do not part after their contact"),
+        pytest.warns(col.CollisionsWarning, match="do not part right after their contact"),
     ):
         run = some.run()
     alone = scene({"A": LOCKED}).run()

@@ -596,7 +596,7 @@ def test_a_striker_that_is_braked_less_is_found_to_go_through_the_struck_car() -
     (notice,) = run.findings
     assert notice.code == "driven_through"
     assert notice.movers == ("pickup", "sedan")
-    assert "pickup and sedan do not part after their contact" in notice.sentence
+    assert "pickup and sedan do not part right after their contact" in notice.sentence
     alike = crash.replace({"pickup.drag": 0.7})
     assert not alike.run().findings
     with pytest.warns(col.OutOfRangeWarning, match="in 1 of 2 cases") as warned:

@@ -662,7 +662,7 @@ class Followed:
             return
         (first, second), at = pair.names, float(ends[0])
         deep = Number(float(overlap[0]), "length", 2)
-        how = "do not part after their contact"
+        how = "do not part right after their contact"
         if not struck[0]:
             how = f"touch at {float(pair.met[cases[0]]):.3g} s, too slowly for a contact"
         if beyond[0] and apart[0]:

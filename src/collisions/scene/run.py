@@ -826,8 +826,8 @@ def _warn_of(found: Followed, wrong: Any) -> None:
 
 # What a finding of one run is without its names and times.
 _DRIVEN = (
-    "two vehicles do not part after their contact, or touch too slowly for one, and are followed "
-    "through or into each other: "
+    "two vehicles do not part right after their contact, or touch too slowly for one, and are "
+    "followed through or into each other: "
     "what pushes them without a blow is not followed, and their places of rest may be wrong. Where "
     "that is so in a few percent of the cases, no more of the probability is in doubt; where in "
     "many, leave the places of rest out of the evidence, and give what was read before that: the "
