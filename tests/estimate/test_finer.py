@@ -661,6 +661,24 @@ def test_a_contact_that_only_the_finer_model_lets_slide_is_found(known):
     assert len(found.others) == 1
 
 
+def test_ranges_that_a_reading_excludes_to_the_last_digit_end_in_an_answer_or_a_refusal():
+    """A delta-V of nearly nothing, the wrong way, with an error of as little."""
+
+    def struck(x, y):
+        a, b = col.Vehicle(mass=1500.0, vx=x), col.Vehicle(mass=1200.0, vx=y)
+        return {"s": col.linear_central(a, b, 0.2, on_failure="nan").a.delta_v}
+
+    def finer(x, y):
+        return struck(1.02 * x, y)
+
+    unknowns = {"x": Normal(17.01, 1.0, truncate=(13.15, None)), "y": Interval(-2.908, 6.642)}
+    try:
+        found = fit(struck, unknowns, {"s": (-1e-9, 1e-9)}, finer=finer)
+    except col.CollisionsError:
+        return
+    assert math.isfinite(found["x"].value)
+
+
 def test_two_answers_of_the_finer_model_are_refused_with_the_call_to_write():
     """Of (x - 1)^2 = 4: both are found from both answers of x^2 = 4."""
     with pytest.raises(col.AmbiguousSolutionError) as refused:

@@ -107,7 +107,9 @@ class Side(NamedTuple):
         )
         alike = abs(end - straight) <= _ALIKE * abs(end - self.values[0])
         near = min(abs(self.rises[k : k + 2] - level)) <= _ALIKE
-        return None if alike or near else self.place(end)
+        # Values so near to each other that rounding leaves none between them tell no more.
+        between = min(low, high) < end < max(low, high)
+        return self.place(end) if between and not (alike or near) else None
 
     def place(self, value: float) -> Place:
         """The place of a value, with all unknowns as straight lines put them."""
