@@ -254,3 +254,8 @@ def test_places_of_rest_on_tyres_can_be_propagated_whatever_is_drawn() -> None:
             )
         assert found.failed == 0
         assert found["Civic.rest.y"].std > 0.5
+
+
+def test_a_word_in_place_of_a_time_stays_a_word() -> None:
+    assert Contact("A", "B", restitution=0.1, friction=0.5, at="touch").q.at == "touch"
+    assert Contact("A", "B", restitution=0.1, friction=0.5, at="2 s").q.at.m_as("ms") == 2000.0

@@ -159,8 +159,11 @@ def is_quantity(value: Any) -> bool:
 
 def to_quantity(value: Any, unit: str) -> Any:
     """The SI value as a Quantity of pint's application registry, so that it mixes with the caller's
-    own; tuples and mappings part by part.
+    own; tuples and mappings part by part. A word in place of a number, as of a contact at "touch",
+    stays.
     """
+    if isinstance(value, str):
+        return value
     if isinstance(value, tuple):
         return tuple(to_quantity(part, unit) for part in value)
     if isinstance(value, (dict, MappingProxyType)):
