@@ -231,8 +231,9 @@ class Followed:
         self.notices: list[Noted] = []
         self.failed: Any = np.full(self.count, "", dtype=object)
         # Whether two vehicles of a case go through or into each other after their contact, whether
-        # a drag does not act in one that has a duration, whether two touch and no contact
-        # says what happens, and whether a touch is passed over as nothing pushes in it.
+        # a drag does not act in one that has a duration, whether wheels stand on ground of
+        # different friction in such a one, whether two touch and no contact says what happens, and
+        # whether a touch is passed over as nothing pushes in it.
         self.driven: Any = np.zeros(self.count, dtype=bool)
         self.dragless: Any = np.zeros(self.count, dtype=bool)
         self.mixed: Any = np.zeros(self.count, dtype=bool)
