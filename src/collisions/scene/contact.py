@@ -100,7 +100,8 @@ class Contact(Shown):
     incomplete : bool, optional
         As for ``eccentric``.
     tyres_after : dict of travel.Tyres, optional
-        By name, the wheels of a vehicle after this contact, as where damage locks them.
+        By name, the wheels of a vehicle after this contact, as where damage locks them. Marks are
+        theirs from the beginning of the contact on, its impulse is of the wheels before.
 
     Raises
     ------
