@@ -710,3 +710,13 @@ def test_a_fit_without_degrees_of_freedom_shows_no_chi_squared():
 
     assert "chi-squared" not in str(fitted(one=0).summary())
     assert "with 1 degree of freedom" in str(fitted(one=0, two=0).summary())
+
+
+def test_a_name_that_would_change_how_a_line_reads_is_shown_as_such() -> None:
+    """A mark that turns the reading direction, a code of a terminal, a new line."""
+    a, b = col.Vehicle(mass=1500.0, vx=10.0, name="\u202eGolf"), col.Vehicle(mass=1200.0)
+    summary = col.linear_central(a, b.replace(name="P\x1b[31m\nx"), 0.1).summary()
+    for text in (str(summary), summary._repr_html_()):
+        assert "\ufffdGolf" in text
+        assert "P\ufffd[31m x" in text
+        assert "\u202e" not in text

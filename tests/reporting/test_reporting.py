@@ -956,14 +956,14 @@ def test_what_is_no_report_is_refused(text, code):
 
 
 @pytest.mark.slow
-def test_a_unit_of_another_registry_is_kept_as_it_was_written():
+@pytest.mark.parametrize("unit", ["slugfest", "slug14"])
+def test_a_unit_of_another_registry_is_kept_as_it_was_written(unit):
     registry = pint.UnitRegistry()
-    registry.define("slugfest = 14.6 kg")
-    impact = col.linear_central(
-        golf(mass=registry.Quantity(100.0, "slugfest")), col.Vehicle(mass=900), 0.1
-    )
+    registry.define(f"{unit} = 14.6 kg")
+    a, b = golf(mass=registry.Quantity(100.0, unit)), col.Vehicle(mass=900)
+    impact = col.linear_central(a, b, 0.1)
     page = report(impact, form="markdown")
-    assert ("A (Golf)", "mass", "1460 kg, given as 100.0 slugfest") in rows(page)
+    assert ("A (Golf)", "mass", f"1460 kg, given as 100.0 {unit}") in rows(page)
     assert report(replay(page), form="markdown") == page
 
 

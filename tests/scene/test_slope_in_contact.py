@@ -148,6 +148,29 @@ def test_what_a_contact_takes_from_what_the_slope_adds(rise: float) -> None:
     assert run.energy["contacts"][0] == pytest.approx(taken, rel=1e-3)
 
 
+def test_the_pull_of_a_contact_that_lasts_is_not_that_of_one_at_the_same_moment() -> None:
+    """B strikes C at an instant while A strikes B for a time: the first takes its own alone."""
+    speeds = {"A": (-4.0, 15.0), "B": (0.0, 8.0), "C": (4.0, 0.0)}
+    movers = {
+        name: Mover(
+            col.Vehicle(mass=1500.0, yaw_inertia=2000.0, x=x, y=0.0, heading=0.0, vx=vx),
+            outline=OUTLINE,
+            drag=0.6,
+        )
+        for name, (x, vx) in speeds.items()
+    }
+    common: dict[str, Any] = {"restitution": 0.1, "friction": 0.5, "normal": 0.0}
+    contacts = [
+        Contact("B", "C", point=(2.0, 0.0), at=0.0, **common),
+        Contact("A", "B", point=(-2.0, 0.0), at=0.0, duration=0.2, **common),
+    ]
+    run = Scene(movers=movers, contacts=contacts, slope=(-0.1, 0.0)).run(tolerance=1e-8)
+    energy = run.energy
+    assert energy["contacts"][0] == pytest.approx(run.impacts[0].energy_loss, rel=1e-12)
+    closes = energy["before"] - sum(energy["contacts"]) - energy["ground"] - energy["left"]
+    assert abs(closes) < 1e-8 * energy["before"]
+
+
 SLOWED: dict[str, dict[str, Any]] = {
     "wheels": {"tyres": TYRES}, "drag": {"drag": 0.5}, "nothing": {},
 }  # fmt: skip

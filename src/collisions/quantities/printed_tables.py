@@ -9,6 +9,8 @@ from collections.abc import Callable, Iterable, Sequence
 from itertools import repeat, zip_longest
 from typing import NamedTuple
 
+from .user_text import plain
+
 PAGE = 88  # characters of a line of a plain table
 _LEAST = 24  # and at least of its longest column
 _SHORT = 30  # characters of a cell that is a number, and not a sentence
@@ -23,6 +25,11 @@ class Part(NamedTuple):
     heading: str = ""
     columns: tuple[str, ...] = ()
     folded: bool = False
+
+    def plain(self) -> Part:
+        """The same without what a name of a vehicle could change of how a line reads."""
+        rows = [tuple(map(plain, row)) for row in self.rows]
+        return Part(rows, plain(self.heading), tuple(map(plain, self.columns)), self.folded)
 
 
 def aligned(parts: Sequence[Part]) -> list[str]:

@@ -14,6 +14,7 @@ from .formatting import KIND_OF, Numbers, check_system, clock, in_words, number_
 from .printed_tables import PAGE, aligned, in_notebook
 from .printed_tables import Part as Part
 from .units import kinds_in_degrees, system_given
+from .user_text import plain
 
 _LARGEST = 1e9  # beyond it numbers are written with a power of ten
 _NOT_KNOWN = "\u2013"
@@ -179,9 +180,9 @@ class Summary:
 
     def __init__(self, title: str, parts: Iterable[Part], notes: Iterable[str] = ()) -> None:
         self.title, self.parts, self.notes = (
-            title,
-            tuple(part for part in parts if part.rows),
-            tuple(notes),
+            plain(title),
+            tuple(part.plain() for part in parts if part.rows),
+            tuple(map(plain, notes)),
         )
 
     def __str__(self) -> str:
@@ -273,6 +274,6 @@ def sided(values: Iterable[tuple[str, Any, str | None]], numbers: Cells) -> list
 def label_of(name: str) -> str:
     """The name of an attribute in words."""
     words = re.sub(r"[_.]", " ", name)
-    for plain, written in _WORDS.items():
-        words = re.sub(rf"\b{plain}\b", written, words)
+    for word, written in _WORDS.items():
+        words = re.sub(rf"\b{word}\b", written, words)
     return words

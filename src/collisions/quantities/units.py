@@ -106,6 +106,8 @@ _NUMBER = r"(?a:[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?|[+-]?inf(?=\s|$))"
 _POWER = r"(?:\s*(?:\*\*|\^)\s*-?[0-9](?![0-9.])|[\u00b2\u00b3])?"
 _NAME = r"(?:[^\W\d_]|[°%])(?:[^\W\d]|[°%])*"
 _UNIT = rf"\(*{_NAME}{_POWER}\)*(?:(?:\s*(?:/|\*(?!\*)|·)\s*|\s+)\(*{_NAME}{_POWER}\)*)*"
+# Names in a registry of somebody's own may have digits, as that of "cmH2O" has.
+_UNIT_ELSEWHERE = _UNIT.replace(r"[^\W\d]|", r"\w|")
 _WITH_COMMA = r"(?a:[+-]?\d[\d,]*,\d)"
 _LONGEST_TEXT = 60
 # By how much factors to SI of one unit may differ, such as one that was worked out in Decimal.
@@ -290,7 +292,7 @@ def unit_as_written(given: Any) -> str:
 def of_another_registry(text: str) -> bool:
     """Whether a text is a number with a unit that is not known here."""
     number, unit = re.match(_NUMBER, text.strip()), unit_as_written(text)
-    if number is None or not re.fullmatch(_UNIT, unit):
+    if number is None or not re.fullmatch(_UNIT_ELSEWHERE, unit):
         return False
     try:
         parse(text, _ANY_KIND, "")

@@ -16,11 +16,12 @@ from ..impact.impact import Impact
 from ..impact.reconstruction import as_bound, how_many, known_in_words
 from ..quantities.formatting import KIND_OF, Numbers
 from ..quantities.tables import as_sentence, label_of
+from ..quantities.user_text import plain
 from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..uncertainty import Output, Propagation
 from ..uncertainty.result import figures
 from .posterior_part import answers_of, warned_of
-from .render import Sheet, plain
+from .render import Sheet
 from .uncertainty import Spread
 from .words import Names, listed
 

@@ -21,6 +21,7 @@ from ..messages.marked import type_of
 from ..quantities.reading import ArgumentReader, need_one_case, single_number
 from ..quantities.refusals import must_be, one_of, yes_or_no
 from ..quantities.units import shown
+from ..quantities.user_text import plain
 from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..reconstruct.found_again import need_found_again
 from ..scene.run import Run
@@ -28,7 +29,6 @@ from ..uncertainty import Propagation
 from ..vehicle.outlines import read_outline
 from . import sections
 from .posterior_part import names_of_notes
-from .render import plain
 from .sections import EVIDENCE
 from .together import Together, together_of
 

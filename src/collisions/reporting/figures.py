@@ -16,11 +16,12 @@ from ..impact.impact import Impact
 from ..messages.errors import InputError
 from ..plot.canvas import in_lines
 from ..quantities.formatting import SI_UNITS
+from ..quantities.user_text import visible
 from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..uncertainty import Propagation
 from ..uncertainty.result import Sampled, varies
 from .posterior_part import answers_of
-from .render import Html, Markdown, visible
+from .render import Html, Markdown
 from .uncertainty import Spread, shares_of
 
 # All of one width, so that their letters are of one size: of which two stand beside each other on a

@@ -28,6 +28,7 @@ from ..quantities.formatting import UnitSystem
 from ..quantities.settings import callers_options, computing
 from ..quantities.tables import as_sentence, cells, given_texts, label_of
 from ..quantities.units import Input, Pair, kinds_in_degrees, shown
+from ..quantities.user_text import plain
 from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..scene.one_run import need_one_run
 from ..scene.run import Run
@@ -40,7 +41,7 @@ from .answer import Figure, answer, figures_of, ranged_text, rests_on
 from .checking import FILED, Checked, Form, checked, results_of
 from .posterior_part import posterior, warned_of
 from .record import plain_options, record_of_all
-from .render import Html, Markdown, Printed, Sheet, plain
+from .render import Html, Markdown, Printed, Sheet
 from .run_page import report_run, units_of_run, vehicles
 from .sections import EVIDENCE
 from .together import Together, words_of

@@ -18,12 +18,12 @@ from ..quantities.document import Document
 from ..quantities.formatting import UnitSystem, decimals_of, typeset
 from ..quantities.printed_tables import html_row
 from ..quantities.tables import Cells, as_sentence, cells, given_texts, label_of
+from ..quantities.user_text import plain
 from ..scene.frames import Frames, frames_of
 from ..scene.marks import drawn
 from ..scene.mover import Mover
 from ..scene.picture import COLOURS, DASHES, bar_of, from_the_front, place_of, view_of
 from ..scene.run import Run, Track
-from .render import plain
 
 _PAGE = Path(__file__).with_name("play.html")
 _STATE = ("x", "y", "heading", "vx", "vy", "yaw_rate")

@@ -15,12 +15,13 @@ from ..messages.warning import Note
 from ..quantities.formatting import KIND_OF, number_with_unit, rounded, typeset
 from ..quantities.printed_tables import Part
 from ..quantities.tables import as_sentence, cells, label_of
+from ..quantities.user_text import plain
 from ..reconstruct import Fit, Posterior
 from ..uncertainty import Propagation
 from ..uncertainty.distribution import Statement, stated_in
 from ..uncertainty.distributions import Normal
 from ..uncertainty.result import outputs_part
-from .render import Sheet, plain
+from .render import Sheet
 
 _OF_NUMBER = "0123456789.e+-"
 _NOTES: Mapping[type, Callable[[Any], Iterable[Note]]] = {

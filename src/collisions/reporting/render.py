@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import math
 import re
-import unicodedata
 from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from typing import TypeAlias
@@ -16,6 +15,7 @@ from ..derivation.page import HEAD, Page
 from ..quantities.formatting import SI_UNITS, number_with_unit, typeset
 from ..quantities.printed_tables import Part, in_html, in_markdown
 from ..quantities.units import with_symbol
+from ..quantities.user_text import plain
 from .mathml import mathml
 
 RECORD = "collisions-record"
@@ -85,8 +85,6 @@ FENCE = "```json\n"
 _MARKS = re.compile(r"([\\`*_{}\[\]<>$|#~&])")
 # Characters that start a list or underline the line above when they begin a line.
 _START = re.compile(r"^(\d*)([-+=.)])")
-# Joiners, which some scripts need; other invisible characters could change how a line reads.
-_JOINERS = "\u200c\u200d"
 # A slug is a pound-force times s²/ft: 0.45359237 kg x 9.80665 / 0.3048, both by definition.
 _SLUG, _PER_SLUG = "slug*ft**2", 1.0 / (0.45359237 * 9.80665 / 0.3048 * 0.3048**2)
 # A subject that is one of the two vehicles, which stand beside each other in one table.
@@ -96,18 +94,6 @@ _AS_PRINTED = 1e-9  # relative: a number this near to its six figures is shown b
 # numbers with no more digits are shown in full, as somebody typed them; the record has all digits
 # of the others
 _DIGITS = 12
-
-
-def plain(text: str) -> str:
-    """A user's text in one line and without invisible characters."""
-    return visible(" ".join(text.split()))
-
-
-def visible(text: str) -> str:
-    """A text with a visible mark in place of each invisible character."""
-    shown_as_is = _JOINERS + "\n"
-    hidden = [s for s in set(text) if unicodedata.category(s)[0] == "C" and s not in shown_as_is]
-    return text.translate(dict.fromkeys(map(ord, hidden), "\ufffd")) if hidden else text
 
 
 class Printed(System):
@@ -267,7 +253,7 @@ class Html(_Sheet):
         self.blocks += [*lines, "</div>"]
 
     def columns(self, part: Part) -> None:
-        self.blocks += ['<div class="tables">', *_within("columns", _plainly(part)), "</div>"]
+        self.blocks += ['<div class="tables">', *_within("columns", part.plain()), "</div>"]
 
     def open_answer(self) -> None:
         self.blocks += ['<section class="answer">', "<div>"]
@@ -362,7 +348,7 @@ class Markdown(_Sheet):
 
     def columns(self, part: Part) -> None:
         heads = part.columns or ("value",)
-        self.blocks.append(in_markdown(_plainly(part)._replace(columns=("of", *heads)), _escaped))
+        self.blocks.append(in_markdown(part.plain()._replace(columns=("of", *heads)), _escaped))
 
     def items(self, lines: Sequence[tuple[str, str]]) -> None:
         texts = (
@@ -430,11 +416,6 @@ def _alike(subjects: Mapping[str, Sequence[tuple[str, str]]]) -> list[list[str]]
         else:
             groups.append([of])
     return [sorted(group) if _VEHICLE.match(group[0]) else group for group in groups]
-
-
-def _plainly(part: Part) -> Part:
-    """A table of texts in one line each."""
-    return part._replace(rows=[tuple(map(plain, row)) for row in part.rows])
 
 
 def _within(kind: str, part: Part) -> list[str]:

@@ -22,6 +22,7 @@ from ..quantities.reading import ArgumentReader
 from ..quantities.settings import callers_options
 from ..quantities.tables import as_sentence, cells, given_texts, label_of
 from ..quantities.units import kinds_in_degrees, shown
+from ..quantities.user_text import plain
 from ..scene.contact import NO_POINT, USUAL_DELAY
 from ..scene.results import result_of, results_of
 from ..scene.run import Run
@@ -33,7 +34,7 @@ from .answer import ranged_text
 from .checking import FILED, check_alone
 from .posterior_part import warned_of
 from .record import record
-from .render import Html, Markdown, Printed, Sheet, plain
+from .render import Html, Markdown, Printed, Sheet
 from .scene_words import contact_in_words, input_in_words
 from .sections import EVIDENCE
 from .uncertainty import Spread

@@ -35,13 +35,14 @@ from ..quantities.formatting import (
 from ..quantities.reading import ArgumentReader
 from ..quantities.tables import as_sentence, label_of
 from ..quantities.units import Input
+from ..quantities.user_text import plain
 from ..reconstruct import MomentumSolution
 from ..reconstruct.momentum_tyres import neglected as momentum_neglect
 from ..reconstruct.momentum_tyres import what_is_sought
 from ..vehicle.drag import read_drag, read_duration
 from ..vehicle.tyres import Tyres
 from ..vehicle.vehicle import Vehicle, named
-from .render import Sheet, given_as, plain
+from .render import Sheet, given_as
 from .uncertainty import Spread
 from .words import Names
 

@@ -15,12 +15,13 @@ from ..kernels.contact_laws import RULES
 from ..messages.errors import InputError
 from ..quantities.formatting import typeset, with_decimals
 from ..quantities.tables import as_sentence
+from ..quantities.user_text import plain
 from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..scene.run import Run
 from ..uncertainty import Interval, Output, Propagation
 from ..uncertainty.distribution import stated_in
 from ..uncertainty.result import NO_SPREAD, NOTHING, figures, varies
-from .render import Sheet, plain
+from .render import Sheet
 from .scene_words import result_in_words
 from .words import Names
 

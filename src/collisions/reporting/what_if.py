@@ -31,9 +31,9 @@ from ..quantities.printed_tables import html_row
 from ..quantities.reading import OUTSIDE_UNITS, ArgumentReader, mixed_units, need_one_case
 from ..quantities.tables import Cells, cells, given_texts, said
 from ..quantities.units import Input, Texts, has_unit, shown
+from ..quantities.user_text import plain
 from ..vehicle.outlines import read_outline
 from ..vehicle.vehicle import NAMES, Vehicle, moved
-from .render import plain
 
 _PAGE = Path(__file__).with_name("what_if.html")
 # The inputs that may have a slider, with their kinds: of the contact, and of a vehicle.

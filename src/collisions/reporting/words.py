@@ -14,9 +14,9 @@ from ..derivation.explain import impact_inputs
 from ..impact.impact import Impact
 from ..impact.reconstruction import KNOWN
 from ..quantities.formatting import KIND_OF
+from ..quantities.user_text import plain
 from ..reconstruct import MomentumSolution
 from ..scene.run import Run
-from .render import plain
 from .scene_words import about, input_in_words
 
 # Longer names would break tables and figures; the letter stands for them there.

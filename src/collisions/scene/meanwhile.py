@@ -26,18 +26,18 @@ class InTime:
 
     def __init__(self, impact: Impact, ends: Mapping[str, Any]) -> None:
         self.ends = ends
-        self._impact = impact
+        self.impact = impact
 
     @cached_property
     def tables(self) -> dict[str, Any]:
         """Time and state of each vehicle at some moments, (7, moments, cases)."""
         count = self.ends["a"].shape[2]
         found = {label: np.full((7, _MOMENTS, count), np.nan) for label in "ab"}
-        inputs, answer = self._impact.inputs, self._impact._answer
+        inputs, answer = self.impact.inputs, self.impact._answer
         for cases, motions, engaged in followed(inputs, answer):
             for label, table in found.items():
                 curve = curve_of(motions, label, engaged)
-                before = getattr(self._impact, label).before
+                before = getattr(self.impact, label).before
                 rates = [
                     np.broadcast_to(part, count)[cases] + changes
                     for part, changes in ((before.vx, curve.vx), (before.vy, curve.vy))
@@ -88,6 +88,11 @@ class During:
     def of(self, some: Any) -> During:
         """That in some of the cases."""
         return During(self.contact, self.label, self.cases[some])
+
+    @property
+    def impact(self) -> Impact:
+        """The contact itself."""
+        return self.contact.impact
 
     @property
     def ends(self) -> Any:

@@ -241,8 +241,8 @@ class Run(Frozen, Summarized):
         lost = tuple(
             impact.energy_loss
             + math.fsum((_tyre_loss(impact.a), _tyre_loss(impact.b)))
-            + math.fsum(self._pulled(name, time) for name in pair)
-            for impact, pair, time in zip(self.impacts, self.pairs, self.times, strict=True)
+            + math.fsum(self._pulled(name, impact) for name in pair)
+            for impact, pair in zip(self.impacts, self.pairs, strict=True)
         )
         ends = self._ends()
         left = [
@@ -660,20 +660,24 @@ class Run(Frozen, Summarized):
             total += float(widths @ (power.reshape(-1, len(_NODES)) @ _WEIGHTS))
         return total
 
-    def _pulled(self, name: str, time: float) -> float:
+    def _pulled(self, name: str, impact: Impact) -> float:
         """What the forces of a contact that is followed in time take from one vehicle [J] by acting
         on the motion that the slope adds meanwhile, which the impact itself is without.
         """
-        leg = self._followed.courses[name].leg_at(time)
-        if leg.during is None or leg.pull is None or leg.start[0] != time:
+        mover = self.scene.movers[name]
+        # By the impact: another contact may have begun at the same moment.
+        for leg in self._followed.courses[name].settled():
+            if leg.during is not None and leg.pull is not None and leg.during.impact is impact:
+                break
+        else:
             return 0.0
         ends = leg.during.ends[:, :, 0]
-        if self.scene.movers[name].fixed or not np.isfinite(ends[0, 1]):
+        if mover.fixed or not np.isfinite(ends[0, 1]):
             return 0.0
         (began, ended), after = ends[1:3].T, ends[4:6, 1]
         # Forces F at the times t: the sum of F t is mass by (velocity after by time, less the way).
         lags = ended - began - leg.hold[0] * after
-        mass: float = self.scene.movers[name].vehicle.mass
+        mass: float = mover.vehicle.mass
         return mass * float(leg.pull[:, 0] @ lags)
 
     def __repr__(self) -> str:
