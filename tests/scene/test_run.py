@@ -364,6 +364,7 @@ def test_a_contact_with_tyres_in_it_is_in_a_batch_as_alone() -> None:
         (lambda record: record | {"format": "collisions scene 9"}, "'collisions scene 1'"),
         (lambda record: {k: v for k, v in record.items() if k != "movers"}, "KeyError 'movers'"),
         (lambda record: record | {"movers": "abc"}, "TypeError"),
+        (lambda record: record | {"movers": record["movers"][:1] * 2}, "it has 'A' twice"),
         (lambda record: record | {"shared": []}, "AttributeError"),
         (lambda record: record | {"surfaces": [{"corners": [1], "friction": 0.3}]}, "TypeError"),
         (lambda record: record | {"contacts": [{"a": "A"}]}, "a contact has a, b, restitution"),

@@ -131,9 +131,11 @@ def what_if(
     """One offline HTML page with a slider for each of these inputs, which redraws the scene,
     delta-V, PDOF, yaw and energy.
 
-    At every move the page solves the impact again by the same model: the kernel itself, recorded
-    and printed as JavaScript, so that both give the same numbers (sine, cosine and arctangent are
-    the browser's). It loads nothing from outside, and works by keyboard and with screen readers.
+    At every move the page solves the impact again by the same model, also one that ``solve`` chose
+    where the sliders start and need not take elsewhere (the page says so): the kernel itself,
+    recorded and printed as JavaScript, so that both give the same numbers (sine, cosine and
+    arctangent are the browser's). It loads nothing from outside, and works by keyboard and with
+    screen readers.
     Inputs without a slider stand on it as given. For an impact that a reverse solver found, it
     computes forward from the motions found, and what it was found from stands beside what follows
     from the sliders.
@@ -489,6 +491,18 @@ def _fixed(impact: Impact, sliders: Sequence[Slider], system: Cells) -> list[tup
     return rows
 
 
+def _chosen(impact: Impact, system: Cells) -> str:
+    """Where ``solve`` took a smaller model for the start, which need not do elsewhere."""
+    if impact.choice is None or impact.choice.keeps_all:
+        return ""
+    fuller = "" if impact.model == "eccentric" else "; for a page without that error take eccentric"
+    return (
+        f" The model was chosen by solve for where the sliders start "
+        f"({impact.choice.reason_in(system)}). The page keeps it: how far it errs elsewhere is not "
+        f"worked out, and solve may take another model there{fuller}."
+    )
+
+
 def _table(caption: str, heads: Sequence[str], rows: Iterable[str], kind: str = "") -> str:
     """An HTML table, or nothing where it has no rows."""
     body = "\n".join(rows)
@@ -573,7 +587,7 @@ def _written(
         "evidence": _table("Evidence", ("observed", "as given", "now"), seen),
         "fixed": one_sided + _table(heading, ("input", names["a"], names["b"]), not_moved, _SIDES),
         "title": escape(f"What if: {names['a']} and {names['b']}"),
-        "model": escape(BY_NAME[impact.model].assumptions),
+        "model": escape(f"{BY_NAME[impact.model].assumptions}{_chosen(impact, system)}"),
         "inputs": "\n".join(inputs),
         "a": escape(names["a"]),
         "b": escape(names["b"]),

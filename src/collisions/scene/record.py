@@ -108,6 +108,8 @@ def scene_of(record: Any) -> Scene:
         movers = {}
         with in_si():
             for found in record["movers"]:
+                if found["name"] in movers:
+                    raise _bad_record(f"it has {shown(found['name'])} twice", "Scene")
                 outline = found["outline"]
                 corners = None if outline is None else [tuple(corner) for corner in outline]
                 vehicle = vehicle_of_record(found["vehicle"])
