@@ -251,9 +251,9 @@ def test_a_key_that_is_no_name_is_refused_in_words(call, code):
     assert caught.value.code == code
 
 
-@pytest.mark.parametrize("text", ["1_0", "\u0661", "2.5"])
+@pytest.mark.parametrize("text", ["1_0", "\u0661", "2.5", True, None])
 def test_a_number_of_a_record_is_no_text_of_one(text):
-    """int() and numpy read "1_0" as 10; ``to_dict`` does not write numbers so."""
+    """numpy reads "1_0" as 10, True as 1 and None as NaN; ``to_dict`` does not write numbers so."""
     record = crash(mass=np.array([1500.0, 1600.0])).to_dict()
     record["inputs"]["a"]["mass"]["values"][1] = text
     with pytest.raises(col.InputError, match="in an array is no number"):

@@ -843,6 +843,8 @@ def test_a_contact_velocity_that_is_none_is_no_record():
     for wrong in (
         [1.0],
         ["x", 1.0],
+        [True, 1.0],
+        ["9.0", 1.0],
         [1.0, {"dtype": "float64", "shape": [2], "values": [1.0, 2.0]}],
         3.0,
     ):

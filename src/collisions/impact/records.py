@@ -323,7 +323,7 @@ def _given_numbers(found: Any) -> dict[str, Any]:
         raise bad_record(f"{shown(found)} is not what a reverse solver was given, by name")
     numbers = {str(name): read_strict(value) for name, value in found.items()}
     for name, number in numbers.items():
-        if not isinstance(number, (float, int, np.ndarray)):
+        if not (isinstance(number, np.ndarray) or _is_number(number)):
             raise bad_record(f"{name}, which a reverse solver was given, is {shown(number)}")
     return {
         name: read_only(number) if isinstance(number, np.ndarray) else float(number)
@@ -355,13 +355,14 @@ def _contact_velocity(pair: Any, shape: tuple[int, ...]) -> Any:
     """
     if pair is None:
         return None
-    closing, slip = (
-        read_strict(part) if isinstance(part, Mapping) else float(read_strict(part))
-        for part in pair
-    )
+    closing, slip = map(read_strict, pair)
+    if not all(isinstance(part, np.ndarray) or _is_number(part) for part in (closing, slip)):
+        raise bad_record(f"its contact_velocity is {shown(pair)}, which are no numbers")
     if not np.shape(closing) == np.shape(slip) == shape:
         raise bad_record("its contact_velocity is not that of its cases")
-    return read_only((closing, slip))
+    return read_only(
+        tuple(part if isinstance(part, np.ndarray) else float(part) for part in (closing, slip))
+    )
 
 
 def _texts(known: Mapping[str, Any], origin: Reconstruction | None) -> dict[str, str]:
@@ -566,6 +567,10 @@ def _count(value: Any) -> Any:
     return value
 
 
+def _is_number(value: Any) -> bool:
+    return isinstance(value, (float, int)) and not isinstance(value, bool)
+
+
 def read_strict(value: Any) -> Any:
     """The value that ``strict`` wrote; a text with a unit stays a text."""
     if isinstance(value, list):
@@ -574,8 +579,8 @@ def read_strict(value: Any) -> Any:
         if value["dtype"] not in ("float32", "float64"):
             raise bad_record(f"an array of {shown(value['dtype'])} is none that to_dict writes")
         numbers = [read_strict(part) for part in value["values"]]
-        # numpy would read the text "1_0" as 10
-        if texts := [part for part in numbers if isinstance(part, str)]:
-            raise bad_record(f"{shown(texts[0])} in an array is no number")
+        # numpy would read the text "1_0" as 10, True as 1 and None as NaN.
+        if wrong := [part for part in numbers if not _is_number(part)]:
+            raise bad_record(f"{shown(wrong[0])} in an array is no number")
         return np.array(numbers, dtype=value["dtype"]).reshape(value["shape"])
     return _INFINITIES.get(value, value) if isinstance(value, str) else value
