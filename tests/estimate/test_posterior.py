@@ -388,14 +388,13 @@ def test_angles_go_round():
     assert found.residuals["course"].over_sigma == pytest.approx(0.5, abs=0.1)
     exact = log_normal_density(math.radians(2.0), 0.0, math.radians(2.0 * math.sqrt(2.0)))
     close(found.log_evidence, found.log_evidence_error, exact)
-    assert (
-        sampled(
-            model,
-            {"course": Normal("179 deg", "2 deg")},
-            {"course": Interval("178 deg", "182 deg")},
-        )[0].log_evidence
-        < 0.0
-    )
+    # Between bounds on either side of where the figures jump.
+    for bounds in (Interval("176 deg", "184 deg"), Censored("176 deg", "184 deg", "1 deg")):
+        between, _ = sampled(model, {"course": Normal("180 deg", "2 deg")}, {"course": bounds})
+        assert between.log_evidence < 0.0
+        shown = between.residuals["course"]
+        assert shown.computed == pytest.approx(math.pi, abs=math.radians(0.2))
+        assert shown.observed == pytest.approx(math.pi, abs=math.radians(0.2))
 
 
 def test_joint_samples_as_priors_go_on():

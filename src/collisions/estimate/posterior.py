@@ -460,7 +460,7 @@ class _Problem:
         for row, column, angle in self.columns(answers):
             squares += row.reading.misfit(column, angle)
             apart = float(np.mean(row.reading.residual(column, angle)))
-            middle = row.reading.middle(column, apart)
+            middle = row.reading.middle(column, angle, apart)
             residuals[row.name] = residual_of(row, self.model.units[row.name], middle, apart)
         unknowns = {
             name: PosteriorOutput(name, self.units[name] or None, column, labels)

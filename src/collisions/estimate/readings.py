@@ -55,7 +55,7 @@ class Reading:
         """What is shown as observed beside a computed value: of bounds the one that is missed."""
         return computed + residual
 
-    def middle(self, computed: Any, residual: float) -> float:
+    def middle(self, computed: Any, angle: bool, residual: float) -> float:
         """What is shown as computed of many values, with the mean of their residuals."""
         return float(np.mean(computed))
 
@@ -92,7 +92,7 @@ class ValueReading(Reading):
         """The value as it was read."""
         return self.value.given_mean
 
-    def middle(self, computed: Any, residual: float) -> float:
+    def middle(self, computed: Any, angle: bool, residual: float) -> float:
         """The mean that goes with the value as it was read, of an angle whatever its turns."""
         return self.value.given_mean - residual
 
@@ -131,6 +131,15 @@ class CensoredReading(Reading):
         inside = np.log1p(-np.exp(log_survival(-far)) - np.exp(log_survival(-near)))
         return np.where(near > 0.0, outside, inside)
 
+    def middle(self, computed: Any, angle: bool, residual: float) -> float:
+        """The mean of the values; of an angle as they lie about the bounds."""
+        return float(np.mean(self._turned(computed) if angle else computed))
+
+    def _turned(self, computed: Any) -> Any:
+        """Angles within half a turn of the middle of their bounds, of which both are given."""
+        middle = 0.5 * math.fsum(one for one in (self.value.low, self.value.high) if one)
+        return middle - folded(middle - computed, math.pi)
+
     def _beyond(self, computed: Any, angle: bool) -> tuple[Any, Any]:
         """Distances of values below the low bound, and above the high one; -inf for a bound that is
         not there.
@@ -144,8 +153,7 @@ class CensoredReading(Reading):
                     code="bad_observation",
                     argument="observed",
                 )
-            middle = 0.5 * (low + high)
-            computed = middle - folded(middle - computed, math.pi)
+            computed = self._turned(computed)
         return (
             computed * 0.0 - np.inf if low is None else low - computed,
             -np.inf if high is None else computed - high,
