@@ -519,16 +519,7 @@ def _model(case: Case, outputs: Any, which: int, count: int) -> Any:
     def model(**values: Any) -> dict[str, Any]:
         with of_answer(_at(case)):
             roots = _roots(case.call(values, **options))
-        if any(not np.all(root.refused) for root in roots[count:]):
-            text = (
-                "has more answers in some cases than in the stated one; narrow what is "
-                "uncertain, or give what decides"
-            )
-            raise CaseError((case.solver, text), refused=True, code="ambiguous")
-        # Where two roots have met and vanished, those left cannot be told apart.
-        all_there = (
-            True if count == 1 else np.False_ if len(roots) < count else ~roots[count - 1].refused
-        )
+        all_there = True if len(roots) == count == 1 else _all_there(case, roots, count)
         shape = np.broadcast_shapes(*map(np.shape, values.values()))
         found = roots[min(which, len(roots) - 1)]
         return {
@@ -537,6 +528,24 @@ def _model(case: Case, outputs: Any, which: int, count: int) -> Any:
         }
 
     return model
+
+
+def _all_there(case: Case, roots: tuple[Any, ...], count: int) -> Any:
+    """In which cases there are as many answers as in the stated one; in the others there is none.
+
+    Another number is refused: where two answers have met and vanished, those left cannot be told
+    apart.
+    """
+    many: Any = sum(1 - np.asarray(root.refused, dtype=int) for root in roots)
+    for other in np.unique(many).tolist():
+        if other not in (0, count):
+            text = (
+                f"has {'more' if other > count else 'fewer'} answers in some cases than in the "
+                f"stated one ({other} for {count}), and which is which cannot be told there; "
+                "narrow what is uncertain, or give what decides"
+            )
+            raise CaseError((case.solver, text), refused=True, code="ambiguous")
+    return many == count
 
 
 def _found(result: Any, name: str) -> tuple[Any, str, Any, str | None]:
