@@ -1065,7 +1065,7 @@ def test_every_warning_has_its_rows():
                 found |= set(next(codes, []))
     elsewhere = {"nearly_plastic", "undetermined", "fold", "islands_disagree", "collapsed"}
     elsewhere |= {"stuck_or_slid", "beyond_model", "driven_through", "drag_during_contact"}
-    elsewhere |= {"mixed_friction"}
+    elsewhere |= {"mixed_friction", "durations_overlap"}
     elsewhere |= {"touch_without_contact", "touch_passed_over", "not_linear", "another_fits"}
     elsewhere |= {"slid_either_way", "at_deepest"}
     assert found == {row.code for row in WARNINGS if row.code != "contradictory"} | elsewhere

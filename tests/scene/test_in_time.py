@@ -13,8 +13,11 @@ import pytest
 
 import collisions as col
 from collisions.impact.instant import neglected
+from collisions.kernels.tyre import wheel_forces
 from collisions.scene import Contact, Mover, Run, Scene
+from collisions.scene.ledger import tyres_in_part
 from collisions.travel import Tyres
+from collisions.vehicle.tyres import kernel_numbers
 from crashes import three_cars
 
 WHEELS = Tyres(0.7, [1, 0.05, 0.05, 0.05], 2.7, 1.5)
@@ -389,3 +392,74 @@ def test_nor_does_it_act_beside_the_impulse_of_the_tyres_of_the_other(model) -> 
         batch.run()
     said = [str(one.message) for one in caught]
     assert any("in 2 of 2 cases of the scene a drag does not act" in one for one in said)
+
+
+def shunt(gap: Any, **more: Any) -> Run:
+    """A runs into B, which stands, and on into C in front of it; all wheels are locked."""
+    places = {"A": (-4.6, 14.0), "B": (0.0, 0.0), "C": (4.5 + gap, 0.0)}
+    movers = {
+        name: Mover(car(x=x, vx=vx), outline=(4.5, 1.8), tyres=Tyres(0.7, 1.0, 2.7, 1.5))
+        for name, (x, vx) in places.items()
+    }
+    rule: dict[str, Any] = {"restitution": 0.1, "friction": 0.4, "duration": 0.15, **more}
+    return Scene(
+        movers=movers, contacts=[Contact("A", "B", **rule), Contact("B", "C", **rule)]
+    ).run()
+
+
+@pytest.mark.parametrize("gap", [0.05, 0.5])
+def test_the_ground_takes_no_more_than_friction_over_the_time_of_all_contacts(gap: float) -> None:
+    """Contacts of one car that overlap in time: its tyres act once. Coulomb's law bounds what they
+    take; of the last contact that is until its duration has passed.
+    """
+    run = shunt(gap, at="touch", model="eccentric")
+    assert run.times[1] - run.times[0] < 0.15
+    before, after = run.at(run.times[0] - 1e-6), run.at(run.times[-1])
+    taken = 1500.0 * (
+        sum(before[name].vx for name in "ABC") - sum(after[name].vx for name in "ABC")
+    )
+    least = 0.7 * 9.80665 * 1500.0 * 0.15
+    assert least < taken <= 3.0 * 0.7 * 9.80665 * 1500.0 * (run.times[-1] + 0.15 - run.times[0])
+    found = [one for one in run.findings if one.code == "durations_overlap"]
+    second = float(run.times[1])
+    assert found[0].time == second
+    assert (
+        f"the tyres of B act for {second - run.times[0]:.3g} s of its 0.15 s" in found[0].sentence
+    )
+    impulses = [run.impacts[0].b.tyre_impulse_x, run.impacts[1].a.tyre_impulse_x]
+    of_b = sum(abs(one) for one in impulses) / (0.7 * 9.80665 * 1500.0)
+    assert of_b <= second + 0.15 - run.times[0] + 1e-9
+
+
+def test_a_contact_at_the_moment_of_another_has_its_tyres_for_nothing() -> None:
+    """About the maximum engagement at time 0 both last as long; a later one, of a batch, has what
+    half of the first leaves of it.
+    """
+    movers = {
+        name: Mover(car(x=x, vx=vx), tyres=Tyres(0.7, 1.0, 2.7, 1.5))
+        for name, (x, vx) in {"A": (-4.0, 14.0), "B": (0.0, 0.0), "C": (5.0, 0.0)}.items()
+    }
+    rule: dict[str, Any] = {"restitution": 0.1, "friction": 0.4, "normal": 0.0, "duration": 0.15}
+    later = np.array([0.0, 0.05, 0.0750001])
+    contacts = [
+        Contact("A", "B", point=(-2.0, 0.0), at=0.0, model="eccentric", **rule),
+        Contact("B", "C", point=(2.5, 0.0), at=later, model="eccentric", **rule),
+    ]
+    with pytest.warns(col.OutOfRangeWarning, match="in 2 of 3 cases of the scene the tyres"):
+        batch = Scene(movers=movers, contacts=contacts).run()
+    of_b = np.abs(batch.impacts[1].a.tyre_impulse_x) / (0.7 * 9.80665 * 1500.0)
+    assert of_b == pytest.approx([0.0, 0.05 + 0.15 - 0.075, 0.15], abs=1e-6)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.25, 1.0])
+def test_tyres_in_part_have_that_share_of_their_force_at_every_slip(share: float) -> None:
+    """Rolling, braked and locked wheels that move ahead, aside and turning."""
+    whole = Tyres(0.7, [1.0, 0.3, 0.0, 0.05], 2.7, 1.5)
+    part = tyres_in_part(whole, share)
+    for direction in ((1.0, 0.0, 0.0), (0.99, 0.02, 0.01), (0.3, 0.9, 0.1), (0.8, 0.1, -0.5)):
+        forces = [
+            np.array(wheel_forces(own, (own.friction,) * 4, *direction, steered=False,
+                                  transfers=False))[:, :2].astype(float) * own.friction
+            for own in (kernel_numbers(one.named, np) for one in (whole, part))
+        ]  # fmt: skip
+        assert forces[1] == pytest.approx(share * forces[0], rel=1e-12, abs=1e-15)

@@ -29,7 +29,7 @@ from ..vehicle.drag import in_plan
 from ..vehicle.tyres import Tyres
 from ..vehicle.vehicle import needed
 from .contact import IN_TIME, USUAL_DELAY, Contact
-from .ledger import tyres_where_they_are
+from .ledger import tyres_in_part, tyres_where_they_are
 from .meanwhile import During, InTime
 from .motion import Course, Ground, body_at, follow_on, moved
 from .mover import Mover
@@ -86,6 +86,8 @@ _LATE = 0.5
 # rounder than drawn explain 0.3 m, at which `diagnose` has a finding; nothing explains more than
 # what a contact crushes.
 _FAR = 0.5
+# Two contacts that share less of their duration than this share nothing.
+_SHARED = 1e-9
 # How exactly it is found when two first touched: a share of 2 to the power of minus this.
 _HALVINGS = 40
 # Axes are those of one face within the angle whose cosine this is.
@@ -232,11 +234,13 @@ class Followed:
         self.failed: Any = np.full(self.count, "", dtype=object)
         # Whether two vehicles of a case go through or into each other after their contact, whether
         # a drag does not act in one that has a duration, whether wheels stand on ground of
-        # different friction in such a one, whether two touch and no contact says what happens, and
-        # whether a touch is passed over as nothing pushes in it.
+        # different friction in such a one, whether tyres act in one only for what an earlier one
+        # leaves of it, whether two touch and no contact says what happens, and whether a touch is
+        # passed over as nothing pushes in it.
         self.driven: Any = np.zeros(self.count, dtype=bool)
         self.dragless: Any = np.zeros(self.count, dtype=bool)
         self.mixed: Any = np.zeros(self.count, dtype=bool)
+        self.partly: Any = np.zeros(self.count, dtype=bool)
         self.undescribed: Any = np.zeros(self.count, dtype=bool)
         self.passed_over: Any = np.zeros(self.count, dtype=bool)
         # The contacts of each case in order, and when they came; -1 and NaN after the last.
@@ -245,6 +249,8 @@ class Followed:
         self.many: Any = np.zeros(self.count, dtype=int)
         # By mover, until when the last contact that was followed in time lasts.
         self.lasts: dict[str, Any] = {name: np.zeros(self.count) for name in movers}
+        # By mover, until when the impulses of its contacts have what its tyres do.
+        self.braked: dict[str, Any] = {name: np.full(self.count, -np.inf) for name in movers}
         self._pairs = self._all_pairs()
         for contact in contacts:
             self._refuse_numbers(contact)
@@ -1165,7 +1171,9 @@ class Followed:
             if contact.duration is not None:
                 options["duration"] = numbers(contact.duration)
                 for label, name in (("a", contact.a), ("b", contact.b)):
-                    options[f"tyres_{label}"] = self._tyres(name, which, time, states[name])
+                    options[f"tyres_{label}"] = self._tyres(
+                        contact, name, which, time, states[name]
+                    )
         if contact.model == "solve":
             options["tolerance"] = 0.0 if contact.tolerance is None else numbers(contact.tolerance)
         if not self.single:
@@ -1181,8 +1189,12 @@ class Followed:
             raise placed(error, where) from None
         return found
 
-    def _tyres(self, name: str, which: Any, time: Any, state: Any) -> Tyres | None:
-        """The tyres of a vehicle on the ground where it is in a contact that lasts."""
+    def _tyres(
+        self, contact: Contact, name: str, which: Any, time: Any, state: Any
+    ) -> Tyres | None:
+        """The tyres of a vehicle on the ground where it is in a contact that lasts, for as much of
+        it as no earlier one has already.
+        """
         course = self.courses[name]
         tyres = course.wheels[int(course.wheels_of[which[0]])]
         if tyres is None:
@@ -1196,7 +1208,28 @@ class Followed:
                 "while the contact lasts"
             )
             self.notices.append(Noted("mixed_friction", text, float(time[0]), (name,)))
-        return tyres
+        lasting, hold = self._duration(contact, which, time)
+        had = np.clip(self.braked[name][which] - (time + hold - lasting), 0.0, lasting)
+        # One that follows at once on another shares nothing with it but rounding.
+        had = np.where(had > _SHARED * lasting, had, 0.0)
+        if not had.any():
+            return tyres
+        self.partly[which] |= had > 0.0
+        if self.single:
+            text = (
+                f"in the contact at {float(time[0]):.3g} s the tyres of {name} act for "
+                f"{float(lasting[0] - had[0]):.3g} s of its {float(lasting[0]):.3g} s, with that "
+                "share of their friction, as an earlier contact has the rest"
+            )
+            self.notices.append(Noted("durations_overlap", text, float(time[0]), (name,)))
+        share = 1.0 - had / lasting
+        return tyres_in_part(tyres, float(share[0]) if self.single else share)
+
+    def _duration(self, contact: Contact, which: Any, time: Any) -> tuple[Any, Any]:
+        """How long a contact lasts that has a duration, and how much of that is to come [s]."""
+        lasting = np.broadcast_to(self.ground.taker(which)(contact.duration), len(which))
+        # States at time 0 are those of maximum engagement, half of the contact before them.
+        return lasting, np.where((time == 0.0) & (not contact.touches), 0.5 * lasting, lasting)
 
     def _go_on(self, contact: Contact, which: Any, time: Any, states: Any, impact: Impact) -> Any:
         """Let both vehicles go on from the motion after the contact; when they do, which is later
@@ -1204,8 +1237,7 @@ class Followed:
         """
         hold = lasting = np.zeros(len(which))
         if contact.duration is not None:
-            lasting = self.ground.taker(which)(contact.duration)
-            hold = np.where((time == 0.0) & (not contact.touches), 0.5 * lasting, lasting)
+            lasting, hold = self._duration(contact, which, time)
         way = way_to_separation(impact)
         passed = np.zeros(len(which), dtype=bool)
         if way is not None:
@@ -1243,6 +1275,8 @@ class Followed:
             during = None if in_time is None else During(in_time, label, every)
             tyres = contact.tyres_after.get(name)
             self.courses[name].turn(which, time, hold, afters[label], tyres, during, lasting)
+            if contact.duration is not None:
+                self.braked[name][which] = np.maximum(self.braked[name][which], time + hold)
         return ends
 
     # What the scene contradicts

@@ -96,6 +96,17 @@ def tyres_where_they_are(tyres: Tyres, ground: Ground, state: Any, cases: Any) -
         return taken.replace(friction=numbers[0], lock=numbers[1:]), mixed
 
 
+def tyres_in_part(tyres: Tyres, share: Any) -> Tyres:
+    """Tyres whose forces are this share of their own, at every slip."""
+    # Fiala's force at a small slip angle is that of the cornering alone, which stays above 0.
+    cornering = np.where(share > 0.0, share * tyres.cornering, tyres.cornering)
+    with in_si():
+        return tyres.replace(
+            friction=share * tyres.friction,
+            cornering=cornering if np.ndim(cornering) else float(cornering),
+        )
+
+
 def on_tyres(tyres: Tyres, mover: Mover, ground: Ground, state: Any, cases: Any = None) -> OnTyres:
     """What tyres do at the states of one case, (6, moments), or of those of a batch."""
     count = state.shape[1]

@@ -843,6 +843,10 @@ _MIXED = (
     "the wheels of a vehicle stand on ground of different friction in a contact that has a "
     "duration; their mean acts on all four meanwhile"
 )
+_PARTLY = (
+    "the tyres of a vehicle act in a contact that has a duration only for what an earlier one "
+    "leaves of it, with that share of their friction"
+)
 _UNDESCRIBED = (
     "two vehicles touch, and no contact says what happens; they are followed as if they passed "
     "through each other"
@@ -872,6 +876,10 @@ def _of_mixed(said: str) -> OutOfRangeWarning:
     return OutOfRangeWarning(said, code="mixed_friction")
 
 
+def _of_partly(said: str) -> OutOfRangeWarning:
+    return OutOfRangeWarning(said, code="durations_overlap")
+
+
 def _of_undescribed(said: str) -> OutOfRangeWarning:
     return OutOfRangeWarning(said, code="touch_without_contact")
 
@@ -889,6 +897,7 @@ _OF_FINDING = {
     "driven_together": (_of_driven, _DRIVEN),
     "drag_during_contact": (_of_dragless, _DRAGLESS),
     "mixed_friction": (_of_mixed, _MIXED),
+    "durations_overlap": (_of_partly, _PARTLY),
     "touch_without_contact": (_of_undescribed, _UNDESCRIBED),
     "touch_passed_over": (_of_passed_over, _PASSED_OVER),
     "at_deepest": (_of_deepest, _AT_DEEPEST),
@@ -903,6 +912,7 @@ def _warn_of_notices(found: Followed) -> None:
         (found.driven, _of_driven, _DRIVEN),
         (found.dragless, _of_dragless, _DRAGLESS),
         (found.mixed, _of_mixed, _MIXED),
+        (found.partly, _of_partly, _PARTLY),
         (found.undescribed, _of_undescribed, _UNDESCRIBED),
         (found.passed_over, _of_passed_over, _PASSED_OVER),
         (found.at_deepest, _of_deepest, _AT_DEEPEST),
