@@ -341,3 +341,30 @@ def test_a_case_without_an_answer_stays_out_of_a_probability():
     ):
         assert chance == pytest.approx(0.5, abs=3e-3)
         assert error > 0.0
+
+
+@pytest.mark.parametrize("unit", [None, "rad"])
+def test_a_direction_about_the_jump_that_is_known_from_one_side_is_warned_of(unit) -> None:
+    """At least 180 degrees, with an error of 7: its numbers lie at both ends. About 90 they do not,
+    and neither do they when counted from 180.
+    """
+
+    def course(x):
+        wrapped = np.mod(x + math.pi, 2.0 * math.pi) - math.pi
+        return to_quantity(wrapped, unit) if unit else wrapped
+
+    def found(middle, less=0.0):
+        return propagate(
+            lambda x: {"c": OneSided(course(x - less), 1)},
+            {"x": Normal(middle, math.radians(7.0))},
+            **OPTIONS,
+        )
+
+    with pytest.warns(
+        col.OutOfRangeWarning, match="c has values near pi and near -pi, and some are"
+    ):
+        about = found(math.pi)
+    assert about["c"].may_wrap()
+    assert any("the ends of its range mean nothing" in one for one in about.statements)
+    for apart in (found(0.5 * math.pi), found(math.pi, math.pi)):
+        assert not apart["c"].may_wrap()

@@ -13,6 +13,7 @@ from ..messages.warning import Note
 from ..quantities.attributes import OWN_UNIT, derived
 from ..quantities.formatting import Numbers
 from ..quantities.strict_json import strict
+from . import turns as angles
 from .result import COVERAGE, Histogram, Output, Sampled, Shares
 
 _PERCENT = f"{100.0 * (0.5 + 0.5 * COVERAGE):g}"
@@ -47,17 +48,19 @@ class OneSidedOutput(Sampled):
         sides.setflags(write=False)
 
     def may_wrap(self) -> bool:
-        """False: what is unbounded is no direction on a circle.
+        """Whether its values lie near pi and near -pi: they are numbers on a line, as "at least"
+        means nothing round a circle.
 
         Returns
         -------
         bool
-            False.
+            Whether they do.
         """
-        return False
+        return self._wraps() is not None
 
     def _wraps(self) -> str | None:
-        return None
+        angle = self.unit in (None, "rad") and angles.jump(self._answered)
+        return angles.ONE_SIDED if angle else None
 
     def shares_of_sides(self) -> tuple[float, float]:
         """Shares of the cases with an answer that say "at least", and "at most".

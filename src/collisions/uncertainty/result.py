@@ -822,6 +822,17 @@ def wrap_notes(wrapped: Mapping[str, str]) -> Iterator[Note]:
             ". Return it with its unit (impact.a.q.pdof), so that it is known to be one",
         ),
         (
+            angles.ONE_SIDED,
+            (
+                "has values near pi and near -pi, and some are known from one side only: if it is "
+                "a direction, the ends of its range mean nothing"
+            ),
+            (
+                ". Return how far it is from a direction near the middle of them, between -180 and "
+                "180 deg, as by `(angle - middle + 180) % 360 - 180`"
+            ),
+        ),
+        (
             angles.AT_FULL_TURN,
             (
                 "has values near 0 and near a full turn, 2 pi, and few somewhere between: if it is "

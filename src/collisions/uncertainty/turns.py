@@ -17,8 +17,10 @@ _NEAR_PI = 2.0
 _SECTORS = 12  # of a turn, whose shares of the values are compared
 _CHANCE = 4.0  # standard deviations of a difference of two counts, beyond which it is none
 _ALONE = 4.0  # times the next widest: a gap in the values of a grid that is a jump
-# Where numbers jump, or that directions point to all sides or to opposite ones.
+# Where numbers jump, also such as are known from one side only, or that directions point to all
+# sides or to opposite ones.
 AT_HALF_TURN, AT_FULL_TURN, ALL_ROUND = "half turn", "full turn", "all round"
+ONE_SIDED = "one-sided"
 
 
 def are_directions(angles: Any) -> bool:
