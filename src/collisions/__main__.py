@@ -43,11 +43,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
         code = _run(_parser().parse_args(arguments))
         sys.stdout.flush()
         return code
-    except BrokenPipeError:
-        # Whoever reads the output has enough, as head has; Python would flush it again at the end.
+    except OSError as error:
+        # Python would flush what is left again at the end.
         with open(os.devnull, "wb") as nowhere:
             os.dup2(nowhere.fileno(), sys.stdout.fileno())
-        return 141  # as shells have it
+        # Whoever reads the output has enough, as head has.
+        if isinstance(error, BrokenPipeError):
+            return 141  # as shells have it
+        print(f"cannot write the output ({error.strerror or error})", file=sys.stderr)
+        return 2
     except KeyboardInterrupt:
         print("stopped; nothing more was written", file=sys.stderr)
         return 130  # as shells have it

@@ -1623,3 +1623,17 @@ def test_what_is_known_from_one_side_has_a_range_with_one_end():
         assert line.startswith(f"propagate.outputs: '{name}' is open, as the contact slid")
     (line,) = problems(SLID + '[posterior.observed]\n"b.before.speed" = "8 m/s +/- 1 m/s"\n')
     assert "known from one side only" in line
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no disk that is always full")
+@pytest.mark.parametrize("arguments", [["new"], [str(CASES / "us_units.toml")]])
+def test_a_disk_that_is_full_is_named(arguments):
+    with open("/dev/full", "w") as full:
+        found = subprocess.run(
+            [sys.executable, "-m", "collisions", *arguments],
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+    assert found.returncode == 2
+    assert found.stderr == "cannot write the output (No space left on device)\n"

@@ -287,6 +287,7 @@ def test_ranges_that_are_refused(ranges, code, text):
         ({3: 5.0}, "unknown_name", "the page has no 3"),
         ({"a.delta_v": ("5 kg", "6 kg")}, "bad_units", "2 arguments"),
         ({"a.delta_v": (6.0, 5.0)}, "bad_range", "in rising order, got"),
+        ({"a.delta_v": (5.0, 5.0)}, "bad_range", "in rising order, got"),
         ({"a.delta_v": (5.0, 6.0, 7.0)}, "bad_range", "a number or a pair"),
         ({"a.pdof": np.array([1.0, 2.0])}, "bad_range", "a number or a pair"),
         ({"energy_loss": math.nan}, "not_finite", "energy_loss"),

@@ -156,7 +156,8 @@ def what_if(
         1.8 m, and the page says so.
     observed : dict, optional
         Evidence to be compared with the result of the same name: a number, or the ends (low, high)
-        of its range, both with a unit or both in SI, outside which the page marks the result. Names
+        of its range in rising order, both with a unit or both in SI, outside which the page marks
+        the result. Names
         are ``a.delta_v``, ``a.pdof``, ``a.delta_yaw_rate``, ``a.before.speed``, ``a.after.speed``,
         the same of ``b``, ``closing_speed`` and ``energy_loss``.
     units : {"si", "metric", "us"}, optional
@@ -397,7 +398,8 @@ def _evidence(impact: Impact, observed: Any) -> list[Evidence]:
             text = f"observed: the page has no {shown(path)}; take some of {', '.join(_SHOWN)}"
             reader.refuse(InputError(text, code="unknown_name", argument="observed"))
             continue
-        ends = given if isinstance(given, (tuple, list)) else (given, given)
+        pair = isinstance(given, (tuple, list))
+        ends = given if pair else (given, given)
         name = f"observed[{path!r}]"
         count = len(reader.problems)
         _refuse_mixed(reader, name, ends)
@@ -408,7 +410,7 @@ def _evidence(impact: Impact, observed: Any) -> list[Evidence]:
             text = f"{name} must be a number or a pair of numbers `(low, high)`, got {shown(given)}"
             reader.refuse(InputError(text, code="bad_range", argument=name))
             continue
-        if not numbers[0] <= numbers[1]:
+        if pair and not numbers[0] < numbers[1]:
             text = f"{name} must be a pair `(low, high)` in rising order, got {shown(given)}"
             reader.refuse(InputError(text, code="bad_range", argument=name))
             continue
@@ -584,7 +586,7 @@ def _written(
         "As given, not moved" if impact.reconstruction is None else "Given or found, not moved"
     )
     for name, part in {
-        "evidence": _table("Evidence", ("observed", "as given", "now"), seen),
+        "evidence": _table("Evidence", ("observed", "reading", "now"), seen),
         "fixed": one_sided + _table(heading, ("input", names["a"], names["b"]), not_moved, _SIDES),
         "title": escape(f"What if: {names['a']} and {names['b']}"),
         "model": escape(f"{BY_NAME[impact.model].assumptions}{_chosen(impact, system)}"),

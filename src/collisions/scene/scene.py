@@ -603,10 +603,11 @@ def _read_movers(reader: ArgumentReader, movers: Any) -> dict[str, Mover]:
             or not name.strip()
             or name in RESERVED
             or any(letter in name for letter in ".[]")
+            or name.splitlines() != [name]
         ):
             text = (
-                f"movers has the name {shown(name)}; names are texts without dots and brackets, "
-                f"and not one of {', '.join(RESERVED)}"
+                f"movers has the name {shown(name)}; names are texts of one line without dots and "
+                f"brackets, and not one of {', '.join(RESERVED)}"
             )
             reader.refuse(InputError(text, code="bad_name", argument="movers"))
         elif not isinstance(mover, Mover):
