@@ -775,3 +775,67 @@ def test_each_part_of_a_mapping_or_a_tuple_with_a_unit_is_a_quantity() -> None:
     assert run.scene.movers["A"].q.reach.m_as("cm") == pytest.approx(50.0 * math.hypot(*OUTLINE))
     wheels = Tyres(0.7, (0.1, 0.2, 0.3, 0.4), 2.6, 1.5).q
     assert [one.m_as("percent") for one in wheels.locks] == pytest.approx([10, 20, 30, 40])
+
+
+def test_an_impact_that_gains_energy_is_said_wherever_the_run_is_shown() -> None:
+    """By a ratio of impulses that no friction gives; the status of the run is that it was run."""
+    bodies = {
+        "A": {"mass": 1500.0, "yaw_inertia": 2400.0, "x": -2.0, "y": 0.4, "heading": 0.0,
+              "vx": np.array([10.0, 12.0])},
+        "B": {"mass": 1200.0, "yaw_inertia": 1700.0, "x": 0.8, "y": -1.2, "heading": "90 deg",
+              "vy": "40 km/h"},
+    }  # fmt: skip
+    movers = {name: Mover(col.Vehicle(**body)) for name, body in bodies.items()}
+    rule: dict[str, Any] = {"restitution": 0.1, "normal": 0.0, "point": (0.0, 0.0), "at": 0.0}
+    contact = Contact("A", "B", impulse_ratio=2.5, **rule)
+    with pytest.warns(col.EnergyGainWarning):
+        batch = Scene(movers=movers, contacts=[contact]).run()
+    assert batch.to_columns()["impacts[0].status"] == ["energy_gain", "energy_gain"]
+    with pytest.warns(col.EnergyGainWarning):
+        single = batch.case(0)
+    assert single.to_columns()["impacts[0].status"] == ["energy_gain"]
+    (found,) = [one for one in single.findings if one.code == "energy_gain"]
+    assert found.sentence.startswith("the impact of A and B at 0 s ends with more energy than it")
+    assert "ends with more energy than it began with" in str(single.summary())
+    assert "ends with more energy than it began with" in col.play(single)
+    text = col.report(single, form="markdown")
+    assert text.index("Energy gain of") < text.index("## Answer")
+    assert "ends with more energy than it began with" in str(single.impacts[0].summary())
+    good = two().run()
+    assert good.to_columns()["impacts[0].status"] == ["ok"]
+    assert not [one for one in good.findings if one.code == "energy_gain"]
+
+
+def test_the_status_of_an_impact_is_empty_in_cases_without_it() -> None:
+    """B is reached in the second case alone."""
+    rule: dict[str, Any] = {"restitution": 0.1, "friction": 0.5, "at": "touch"}
+    movers = {
+        name: car(1500.0, vx, x, yaw_inertia=2400.0, drag=0.7)
+        for name, vx, x in (("A", np.array([5.0, 15.0]), 0.0), ("B", 0.0, 8.0))
+    }
+    with pytest.warns(col.CollisionsWarning, match="1 contact_missing"):
+        batch = Scene(movers=movers, contacts=[Contact("A", "B", **rule)]).run()
+    columns = batch.to_columns()
+    assert columns["status"] == ["contact_missing", "ok"]
+    assert columns["impacts[0].status"] == ["", "ok"]
+
+
+def test_a_blow_drives_two_together_that_close_already() -> None:
+    """C brakes harder than B, which has struck it and is pushed on into it, when C strikes D: that
+    is a blow for B too.
+    """
+    movers = {
+        name: car(mass, vx, x, drag=drag)
+        for name, mass, vx, x, drag in (
+            ("B", 1000.0, 10.0, 0.0, 0.1),
+            ("C", 1000.0, 8.0, 5.0, 0.8),
+            ("D", 3000.0, 0.0, 13.0, 0.8),
+        )
+    }
+    rules = [Contact(*pair, **{**IN_LINE, "restitution": 0.0}) for pair in ("BC", "CD")]
+    run = Scene(movers=movers, contacts=rules).run()
+    assert run.pairs[:3] == (("B", "C"), ("C", "D"), ("B", "C"))
+    _, second, third, *_ = run.impacts
+    assert run.times[1] == run.times[2]
+    assert run.at(run.times[1] - 1e-9)["B"].vx - second.a.before.vx > 1.0
+    assert third.closing_speed == pytest.approx(third.a.before.vx - second.a.after.vx, rel=1e-12)

@@ -567,7 +567,7 @@ def _is_mean(result: Any, name: str, kind: str, output: Output) -> bool:
     value = attrgetter(name)(result)
     # With an interval among the inputs there are two deviations, and neither includes the width of
     # the interval.
-    if len(std) > 1 or value is None:
+    if len(std) > 1 or value is None or not math.isfinite(mean[0]):
         return False
     off = abs(value - mean[0])
     off = min(off, abs(off - math.tau)) if kind == "angle" else off

@@ -14,6 +14,7 @@ from ..messages.errors import InternalError
 from ..quantities.document import Document
 from ..quantities.formatting import clock, typeset
 from ..quantities.printed_tables import Part, in_markdown, ruled
+from ..uncertainty.one_sided_output import range_in_words
 from .expressions import CALCULATOR, Direction, Expression, Pen, System, is_zero
 from .symbols import Symbol
 
@@ -118,6 +119,9 @@ class Page:
             printed = self.system.answer(value, kind, self.deviations.get(name))
             return printed + clock(name, value)
         low, high = self.ranges[name]
+        if not math.isfinite(low + high):
+            bound = range_in_words(low, high, lambda end: self.system.answer(end, kind), "%")
+            return f"{self.system.answer(value, kind)} ({bound})"
         half = 0.5 * (high - low)
         printed = self.system.span(value, value, kind, half)
         ends = (self.system.span(end, end, kind, half) for end in (low, high))

@@ -149,12 +149,12 @@ class ModelChoice(Shown):
         """Why, in a sentence, its speeds in m/s; ``summary`` says it in other units."""
         return _reason(self)
 
-    def reason_in(self, numbers: Numbers) -> str:
+    def _reason_in(self, numbers: Numbers) -> str:
         """The reason, its speeds in these units."""
         return _reason(self, numbers)
 
     @property
-    def keeps_all(self) -> bool:
+    def _keeps_all(self) -> bool:
         """Whether a single case has the fullest of the models that it was chosen from."""
         return bool(self._which == (_LAST if self._timed else ECCENTRIC))
 
@@ -180,7 +180,7 @@ class ModelChoice(Shown):
 
     def _summary(self, numbers: Cells) -> Summary:
         values = (
-            (name, self.reason_in(numbers) if name == "reason" else value, unit)
+            (name, self._reason_in(numbers) if name == "reason" else value, unit)
             for name, value, unit in self._values()
         )
         return Summary(self._title, [*sided(values, numbers), all_numbers(self._rows())])

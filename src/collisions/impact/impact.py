@@ -33,7 +33,16 @@ from ..quantities.attributes import (
 from ..quantities.directions import angle_of
 from ..quantities.reading import ArgumentReader, broadcast, widened
 from ..quantities.settings import in_si
-from ..quantities.tables import Cells, Part, Summarized, Summary, all_numbers, label_of
+from ..quantities.tables import (
+    Cells,
+    Part,
+    Summarized,
+    Summary,
+    all_numbers,
+    as_sentence,
+    label_of,
+    outcomes,
+)
 from ..quantities.units import Input, Value
 from ..vehicle.vehicle import Vehicle
 from .inputs import (
@@ -833,20 +842,20 @@ class Impact(_SpeedsBefore, Frozen, Summarized):
             for name in names
         ]
         notes = SIGNS if a.before.heading is not None or b.before.heading is not None else SIGNS[:1]
-        if np.any(self.refused):
-            many = (
-                f"{np.count_nonzero(self.refused)} of {np.size(self.refused)} cases were "
-                "refused, for what their status "
-            )
-            many += "says; the ranges are those of the others."
-            notes = (
-                f"Refused: {self.status.sentence}." if isinstance(self.status, Status) else many,
-                *notes,
-            )
-        notes = (*self._bounds(numbers), *notes)
+        said = map(as_sentence, self._said())
+        notes = (*self._bounds(numbers), *outcomes(self.status), *said, *notes)
         title = f"Impact of {title_of(a)} and {title_of(b)}"
         everything = all_numbers(self._rows())
         return Summary(title, [*beside((a, b), numbers), Part(rows, "Contact"), everything], notes)
+
+    def _said(self) -> Iterator[str]:
+        """Of an impact that was found backwards: how many others fit, and its statements."""
+        from .reconstruction import how_many
+
+        answers = 1 if self.reconstruction is None else self.reconstruction.answers
+        if np.ndim(answers) == 0 and answers > 1:
+            yield f"Not the only answer: {how_many(answers)} fit what was known"
+        yield from self.statements
 
     def _bounds(self, numbers: Cells) -> tuple[str, ...]:
         """That speeds of a contact that may have slid are known from one side only."""

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from ..messages.errors import Status
 from .formatting import KIND_OF, Numbers, check_system, clock, in_words, number_with_unit
 from .printed_tables import PAGE, aligned, in_notebook
 from .printed_tables import Part as Part
@@ -248,6 +249,24 @@ def as_sentence(text: str) -> str:
     begins = text[:1] if _NAME.match(text) else text[:1].upper()
     ends = "" if text.endswith("?") else "."
     return f"{begins}{text[1:].rstrip('.')}{ends}"
+
+
+def outcomes(status: Any) -> list[str]:
+    """Sentences on cases that were refused or gain energy."""
+    if isinstance(status, Status):
+        sentence = f"{status.sentence}."
+        if status > Status.ENERGY_GAIN:
+            return [f"Refused: {sentence}"]
+        return [] if status is Status.OK else [sentence[0].upper() + sentence[1:]]
+    said = (
+        (
+            status > Status.ENERGY_GAIN,
+            "were refused, for what their status says; the ranges are those of the others.",
+        ),
+        (status == Status.ENERGY_GAIN, "end with more energy than they began with."),
+    )
+    counts = ((np.count_nonzero(which), what) for which, what in said)
+    return [f"{count} of {np.size(status)} cases {what}" for count, what in counts if count]
 
 
 def all_numbers(rows: Iterable[tuple[str, str]]) -> Part:

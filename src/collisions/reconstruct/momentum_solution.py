@@ -15,7 +15,16 @@ from ..kernels.status import Status
 from ..messages.errors import MissingInputError
 from ..quantities.attribute_stubs import MomentumSolutionQuantities
 from ..quantities.attributes import Shown, derived, equal
-from ..quantities.tables import Cells, Part, Sentences, Summary, all_numbers, as_sentence, sided
+from ..quantities.tables import (
+    Cells,
+    Part,
+    Sentences,
+    Summary,
+    all_numbers,
+    as_sentence,
+    outcomes,
+    sided,
+)
 from ..quantities.units import Value, to_quantity
 from ..vehicle.drag import USUAL_DURATION
 from ..vehicle.tyres import Tyres
@@ -151,25 +160,8 @@ class MomentumSolution(Shown):
         return Summary(
             self._title,
             [*sided(values, numbers), changes, all_numbers(self._rows())],
-            [*self._outcome(), *map(as_sentence, self._stated_in(numbers.name))],
+            [*outcomes(self.status), *map(as_sentence, self._stated_in(numbers.name))],
         )
-
-    def _outcome(self) -> list[str]:
-        """Sentences on cases that were refused or gain energy."""
-        if isinstance(self.status, Status):
-            sentence = f"{self.status.sentence}."
-            if self.status > Status.ENERGY_GAIN:
-                return [f"Refused: {sentence}"]
-            return [] if self.status is Status.OK else [sentence[0].upper() + sentence[1:]]
-        many = f"of {np.size(self.status)} cases"
-        said = (
-            (
-                self.status > Status.ENERGY_GAIN,
-                "were refused, for what their status says; the ranges are those of the others.",
-            ),
-            (self.status == Status.ENERGY_GAIN, "end with more energy than they began with."),
-        )
-        return [f"{np.count_nonzero(which)} {many} {what}" for which, what in said if np.any(which)]
 
     @property
     def found(self) -> tuple[str, ...]:

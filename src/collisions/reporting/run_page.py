@@ -76,6 +76,8 @@ def report_run(run: Run, given: Mapping[str, Any], unusual: Mapping[str, Any]) -
     if filed:
         sheet.file([(name.capitalize(), text) for name, text in filed])
     spread = Spread(run, uncertainty)
+    for impact in run.impacts:
+        sections.gain(sheet, impact, impact.energy_loss)
     _answer(sheet, run, found, draws, spread, uncertainty)
     _start(sheet, run)
     vehicles(sheet, run)

@@ -495,13 +495,13 @@ def _fixed(impact: Impact, sliders: Sequence[Slider], system: Cells) -> list[tup
 
 def _chosen(impact: Impact, system: Cells) -> str:
     """Where ``solve`` took a smaller model for the start, which need not do elsewhere."""
-    if impact.choice is None or impact.choice.keeps_all:
+    if impact.choice is None or impact.choice._keeps_all:
         return ""
     fuller = "" if impact.model == "eccentric" else "; for a page without that error take eccentric"
     return (
         f" The model was chosen by solve for where the sliders start "
-        f"({impact.choice.reason_in(system)}). The page keeps it: how far it errs elsewhere is not "
-        f"worked out, and solve may take another model there{fuller}."
+        f"({impact.choice._reason_in(system)}). The page keeps it: how far it errs elsewhere is "
+        f"not worked out, and solve may take another model there{fuller}."
     )
 
 

@@ -922,7 +922,9 @@ class Followed:
         closing, gap, widest = self._closing(pair, which, time)
         least = pair.least[which]
         in_contact = ~pair.apart[which] & ~waiting & (gap < APART)
-        together = in_contact & (closing >= least) & (before[0] < least)
+        # Two that were pushed into each other slowly may close faster than that already.
+        struck_on = (before[0] < least) | (closing - before[0] >= _AGAIN)
+        together = in_contact & (closing >= least) & struck_on
         driven = together & (gap <= TOUCHING)
         # Outlines that have parted a little meet anew.
         anew = which[together & ~driven]

@@ -20,7 +20,13 @@ import numpy as np
 from ..impact.impact import Impact, part_of_impact
 from ..impact.vehicle_result import VehicleResult
 from ..kernels.elementwise import UNIT_INTERVAL
-from ..messages.errors import CollisionsWarning, InputError, MissingInputError, NoSolutionError
+from ..messages.errors import (
+    CollisionsWarning,
+    InputError,
+    MissingInputError,
+    NoSolutionError,
+    Status,
+)
 from ..messages.warning import quietly, warn_of_cases
 from ..quantities.attributes import attributes, unit_of
 from ..quantities.formatting import KIND_OF
@@ -528,6 +534,8 @@ def columns_of(run: Run, units: Any) -> dict[str, list[Any]]:
     if not followed.single:
         warn_of_another(run, range(len(order)), order, "in most cases")
     found: dict[str, list[Any]] = {"status": np.ravel(run.status).tolist()}
+    for number in range(run._most):
+        found[f"impacts[{number}].status"] = _statuses(run, number, order)
     for path, unit in in_columns(run.scene, run._most).items():
         try:
             value = np.broadcast_to(result_of(run, path, order), (followed.count,))
@@ -542,6 +550,19 @@ def columns_of(run: Run, units: Any) -> dict[str, list[Any]]:
             name = f"{path} [{unit if kind is None else system.label(kind)}]"
         found[name] = value.tolist()
     return found
+
+
+def _statuses(run: Run, number: int, order: Sequence[int]) -> list[str]:
+    """The status of the impact of a number in each case; "" where it has none, or another."""
+    followed = run._followed
+    labels = np.full(followed.count, "", dtype=object)
+    for hit in followed.hits:
+        statuses = np.ravel(np.broadcast_to(hit.impact.status, len(hit.which))).tolist()
+        for case, at, status in zip(hit.which.tolist(), hit.number.tolist(), statuses, strict=True):
+            if at == number:
+                labels[case] = Status(status).label
+    labels[another(run, number, order) | (followed.failed != "")] = ""
+    return labels.tolist()
 
 
 def warn_of_another(run: Run, numbers: Iterable[int], order: Sequence[int], as_in: str) -> None:

@@ -18,6 +18,7 @@ from ..messages.errors import (
     InputError,
     OutOfRangeWarning,
     ShapeError,
+    Status,
 )
 from ..messages.warning import warn_of_cases
 from ..quantities.attributes import Frozen, Quantities, Shown, derived, format_value, read_only
@@ -189,9 +190,14 @@ class Run(Frozen, Summarized):
         found = self._followed
         notices = found.notices_in(units)
         for hit in found.hits if found.single else ():
+            contact, time = self.scene.contacts[hit.rule], float(hit.time[0])
+            if hit.impact.status == Status.ENERGY_GAIN:
+                text = (
+                    f"the impact of {contact.a} and {contact.b} at {time:.3g} s ends with more "
+                    "energy than it began with, which no impact does: the inputs do not go together"
+                )
+                notices.append(Notice("energy_gain", text, time, (contact.a, contact.b)))
             if bool(hit.deepest[0]):
-                contact = self.scene.contacts[hit.rule]
-                time = float(hit.time[0])
                 text = (
                     f"{contact.a} and {contact.b} part before the depth or delay of their contact "
                     f"is reached; the impulse acts at their deepest, at {time:.3g} s"
@@ -397,7 +403,8 @@ class Run(Frozen, Summarized):
         Returns
         -------
         dict of list
-            By path, as ``Scene.results`` lists them, but for those of marks. Of a batch whose
+            By path, as ``Scene.results`` lists them, but for those of marks, and the status of each
+            impact: "ok", "energy_gain", or "" where there is none. Of a batch whose
             contacts come in several orders, "impacts[k]" and "times[k]" have the impact that most
             cases have there, with a warning, and NaN in the others; "contacts[i].impact" has the
             first impact of a contact in every case.
@@ -924,8 +931,12 @@ def _warn_of_notices(found: Followed) -> None:
 
 
 def warn_of_findings(run: Run) -> None:
-    """Say of a single run what limits its answer, where the run itself is not seen."""
+    """Say of a single run what limits its answer, where the run itself is not seen; of an impact
+    that gains energy its solver has warned.
+    """
     for notice in run.findings if run._followed.single else ():
+        if notice.code == "energy_gain":
+            continue
         made, text = _OF_FINDING[notice.code]
         warn_of_cases(made(notice.sentence), {text: None})
 

@@ -19,6 +19,19 @@ from .result import COVERAGE, Histogram, Output, Sampled, Shares
 _PERCENT = f"{100.0 * (0.5 + 0.5 * COVERAGE):g}"
 
 
+def range_in_words(low: float, high: float, text: Callable[[float], str], percent: str) -> str:
+    """A range of which an end may be infinite, its numbers written by ``text``."""
+    if math.isnan(low + high) and not math.isinf(low):
+        return "no case has an answer"
+    if math.isinf(low) and math.isinf(high):
+        return f"open on both sides at {100.0 * COVERAGE:g} {percent}"
+    if math.isinf(high):
+        return f"at least {text(low)}, {_PERCENT} {percent}"
+    if math.isinf(low):
+        return f"at most {text(high)}, {_PERCENT} {percent}"
+    return f"{text(low)} to {text(high)}, {100.0 * COVERAGE:g} {percent}"
+
+
 class OneSidedOutput(Sampled):
     """A sampled output of which some cases only say "at least", or "at most".
 
@@ -140,16 +153,7 @@ class OneSidedOutput(Sampled):
         return found | more
 
     def _range(self, text: Callable[[float], str], percent: str) -> str:
-        low, high = self.interval()
-        if math.isnan(low + high) and not math.isinf(low):
-            return "no case has an answer"
-        if math.isinf(low) and math.isinf(high):
-            return f"open on both sides at {100.0 * COVERAGE:g} {percent}"
-        if math.isinf(high):
-            return f"at least {text(low)}, {_PERCENT} {percent}"
-        if math.isinf(low):
-            return f"at most {text(high)}, {_PERCENT} {percent}"
-        return f"{text(low)} to {text(high)}, {100.0 * COVERAGE:g} {percent}"
+        return range_in_words(*self.interval(), text, percent)
 
     def _mean(self) -> Any:
         return math.nan
