@@ -1105,6 +1105,20 @@ def test_an_output_in_another_unit_is_no_answer_of_its_name():
         explain(impact, uncertainty=alone)
 
 
+def test_an_output_that_is_known_from_one_side_has_its_end():
+    """Of a fifth of the cases at least, as the 97.5 percent beyond 10 - 1.96 / 2 m/s have it."""
+    spread = uncertainty.propagate(
+        lambda v, t: {"b.after.vx": uncertainty.OneSided(v / 2.0, np.where(t < 0.2, 1, 0))},
+        {"v": uncertainty.Normal(20.0, 1.0), "t": uncertainty.Uniform(0.0, 1.0)},
+        samples=4096,
+        seed=1,
+    )
+    impact = col.linear_central(col.Vehicle(mass=1000.0, vx=20.0), col.Vehicle(mass=1000.0), 0.0)
+    text = explain(impact, form="text", uncertainty=spread)
+    shown = answer(text, "B", "velocity after, along x")
+    assert shown == "10.00 m/s (at least 9.02 m/s, 97.5 %)"
+
+
 def test_a_deviation_of_rounding_alone_is_not_printed():
     """It would ask for every digit of the answer."""
     inputs = {"v": uncertainty.Normal(20.0, 1e-9)}

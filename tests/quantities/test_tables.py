@@ -720,3 +720,25 @@ def test_a_name_that_would_change_how_a_line_reads_is_shown_as_such() -> None:
         assert "\ufffdGolf" in text
         assert "P\ufffd[31m x" in text
         assert "\u202e" not in text
+
+
+def test_what_is_said_beside_the_numbers_of_an_impact_found_backwards_stands_in_its_summary() -> (
+    None
+):
+    """That it is one of three, and what an instant leaves out."""
+    found = reconstruct.speeds(
+        col.Vehicle(mass=1500.0, yaw_inertia=2600.0, heading=0.0, x=-2.2, y=0.2),
+        col.Vehicle(mass=1200.0, yaw_inertia=2100.0, heading="90 deg", x=0.9, y=-0.5),
+        course_a=0.0,
+        course_b="66.728 deg",
+        energy_loss=53580.0,
+        speed_b=22.257,
+        restitution=0.27867,
+        normal="-40.982 deg",
+        point=(0.0, 0.0),
+        friction=0.97226,
+    )
+    text = " ".join(str(found[1].summary()).split())
+    assert "Not the only answer: 3 impacts fit what was known." in text
+    assert len(found[1].statements) == 1
+    assert "Found as an instant: of delta-V that leaves out about" in text

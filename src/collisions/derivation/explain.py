@@ -511,7 +511,7 @@ def about_ranges(uncertainty: Propagation) -> str:
         return (
             "A range in brackets holds 95 percent of the propagation. The number before it is "
             "the answer for the inputs used here, and not the mean of the propagation, which is "
-            "too far from it for a ±."
+            "too far from it for a ±, or not known."
         )
     held = (
         "every value"
