@@ -87,9 +87,13 @@ class Contact(Shown):
         With the model "eccentric" it is for the impulse of the tyres; the vehicles then move on by
         the velocities after it until it has passed, and from there on their tyres: that is the
         duration, and at time 0 half of it, as the states there are those of maximum engagement,
-        with half of the contact before them. For "solve", both. Tyres have the friction of the
-        surface that the vehicle stands on, or the mean of several, which is a finding. A drag of a
-        vehicle, in place of tyres, does not act meanwhile, which is a finding too.
+        with half of the contact before them. Tyres of a vehicle whose earlier contact has not
+        passed act for the rest only, which is a finding. "solve" takes the least of all models
+        that is near enough, by the states at first touch where the contact in time may be that;
+        it is then followed from there, and a central one leaves tyres what they do. Tyres have the
+        friction of the surface that the vehicle stands on, or the mean of several, which is a
+        finding. A drag of a vehicle, in place of tyres, does not act meanwhile, which is a finding
+        too.
     tolerance : float, str, Quantity or array [m/s], optional
         With the model "solve", the largest error that is accepted.
     friction, impulse_ratio, critical_fraction : float, str, Quantity or array [-], optional
@@ -225,6 +229,19 @@ class Contact(Shown):
         kept = {name: self.as_given(name) for name in NAMES}
         return Contact(**{**kept, **changes})
 
+    def by_model(self, model: str) -> Contact:
+        """The contact of "solve" as one of the models that it takes has it: in time, or an impulse,
+        which without that of tyres has no duration.
+        """
+        found = object.__new__(Contact)
+        for name in (*NAMES, "_inputs_as_texts"):
+            object.__setattr__(found, name, getattr(self, name))
+        if model == IN_TIME:
+            object.__setattr__(found, "model", model)
+        elif model in NO_POINT:
+            object.__setattr__(found, "duration", None)
+        return found
+
     def as_given(self, name: str) -> Any:
         """The text that an argument was given as, or its value in SI.
 
@@ -264,6 +281,16 @@ class Contact(Shown):
     def in_time(self) -> bool:
         """Whether the contact is followed in time from first touch."""
         return self.model == IN_TIME
+
+    @property
+    def takes_least(self) -> bool:
+        """Whether the contact takes the least model that is near enough, which may take time."""
+        return self.model == "solve" and self.duration is not None
+
+    @property
+    def may_be_in_time(self) -> bool:
+        """Whether the contact has what one followed in time takes."""
+        return self.rule == FRICTION and self.law == BRACH and not self.incomplete
 
     @property
     def rule(self) -> str | None:

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, nullcontext, suppress
 from itertools import combinations
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..impact.choice import by_candidate
 from ..impact.impact import Impact, way_to_separation
-from ..impact.inputs import part_of
+from ..impact.inputs import OnFailure, part_of
 from ..impact.solvers import eccentric, linear_central, oblique_central, solve, time_resolved
 from ..kernels.contact_laws import FRICTION, RULES
 from ..messages.errors import (
@@ -21,7 +23,7 @@ from ..messages.errors import (
     Status,
     placed,
 )
-from ..messages.warning import NO_ANSWER, of_some
+from ..messages.warning import NO_ANSWER, of_some, quietly
 from ..quantities.settings import in_si
 from ..quantities.tables import Sentences
 from ..quantities.units import texts_of
@@ -86,6 +88,8 @@ _LATE = 0.5
 # rounder than drawn explain 0.3 m, at which `diagnose` has a finding; nothing explains more than
 # what a contact crushes.
 _FAR = 0.5
+# The models that the least one near enough is taken from.
+_LEAST_OF = ("linear_central", "oblique_central", "eccentric", IN_TIME)
 # Two contacts that share less of their duration than this share nothing.
 _SHARED = 1e-9
 # How exactly it is found when two first touched: a share of 2 to the power of minus this.
@@ -184,6 +188,9 @@ class _Between:
         self.deepest: Any = np.zeros(count, dtype=bool)
         self.nearest: Any = np.full(count, np.inf)
         self.nearest_at: Any = np.zeros(count)
+        # Of a contact that takes the least model which is near enough, which that is: its place in
+        # ``_LEAST_OF``, -1 before it was decided.
+        self.model: Any = np.full(count, -1)
         # When they first touched, of the contact that they are in [s]: before the start -inf.
         self.first: Any = np.full(count, np.nan)
         # Touches that came: of which cases, when, and how fast they closed.
@@ -251,6 +258,8 @@ class Followed:
         self.lasts: dict[str, Any] = {name: np.zeros(self.count) for name in movers}
         # By mover, until when the impulses of its contacts have what its tyres do.
         self.braked: dict[str, Any] = {name: np.full(self.count, -np.inf) for name in movers}
+        # By mover, how long its contacts at the start had lasted by then [s].
+        self.ahead: dict[str, Any] = {name: np.zeros(self.count) for name in movers}
         self._pairs = self._all_pairs()
         for contact in contacts:
             self._refuse_numbers(contact)
@@ -603,6 +612,7 @@ class Followed:
             counts = touches & (touch.closing >= pair.least[cases])
             passes = touches & ~counts
             if pair.rule is not None:
+                pair.model[cases[counts]] = -1
                 self._arrange(pair, cases[counts])
             # A resting contact is passed over: the search goes on once they were apart.
             over = cases[passes]
@@ -721,10 +731,13 @@ class Followed:
         if unknown.any():
             self._refuse_unknown_depth(pair, cases[unknown])
             due = np.where(unknown, np.inf, due)
-        pair.due[cases], pair.deepest[cases] = due, deepest
-        if contact.in_time:
-            # It begins at first touch, where the face and the place that it comes to are known.
-            pair.due[cases], pair.seen[cases] = touch, due
+        # A contact in time begins at first touch, where the face and the place that it comes to are
+        # known.
+        early = np.full(len(cases), contact.in_time)
+        if contact.takes_least and contact.may_be_in_time:
+            early = pair.model[cases] < 0
+        pair.due[cases], pair.deepest[cases] = np.where(early, touch, due), deepest
+        pair.seen[cases] = np.where(early, due, pair.seen[cases])
 
     def _refuse_bare(self, pair: _Between, moving: Pair, cases: Any, amount: Any) -> None:
         """Refuse a point at bare first touch where two faces meet."""
@@ -790,8 +803,63 @@ class Followed:
         return [np.array(cases) for cases in groups.values()]
 
     def _strike(self, rule: int, which: Any, now: Any) -> None:
+        """Apply a contact whose time has come, by its model or by the least that is near enough."""
         contact = self.contacts[rule]
         pair = next(p for p in self._pairs if {contact.a, contact.b} == {*p.names})
+        if not contact.takes_least:
+            self._strike_by(contact, rule, pair, which, now)
+            return
+        fresh = which[pair.model[which] < 0]
+        if len(fresh):
+            self._decide(contact, rule, pair, fresh, now)
+        # What was decided at first touch to take no time acts when an impulse does.
+        later = np.zeros(len(which), dtype=bool)
+        if contact.touches:
+            later = (pair.model[which] != _LEAST_OF.index(IN_TIME)) & (
+                now[which] < pair.seen[which]
+            )
+        pair.due[which[later]] = pair.seen[which[later]]
+        which = which[~later]
+        for number in np.unique(pair.model[which]).tolist():
+            some = which[pair.model[which] == number]
+            model = _LEAST_OF[number]
+            self._strike_by(contact.by_model(model), rule, pair, some, now, model)
+
+    def _decide(self, contact: Contact, rule: int, pair: _Between, which: Any, now: Any) -> None:
+        """Decide by which model some cases of a contact are worked out."""
+        time = now[which]
+        states = {name: self.courses[name].at(time, which) for name in (contact.a, contact.b)}
+        begins = contact
+        if contact.may_be_in_time:
+            begins = contact.by_model(IN_TIME)
+        # What cannot be decided is refused where it strikes.
+        found: Any = _LEAST_OF.index("eccentric")
+        with self._unsaid(), quietly(), suppress(CollisionsError):
+            place = self._place(pair, begins, which, time, states)
+            impact = self._solved_by(rule, contact, which, time, states, place)
+            names = np.broadcast_to(np.asarray(impact.model), len(which))
+            found = np.array([_LEAST_OF.index(name) for name in names.tolist()])
+        pair.model[which] = found
+
+    @contextmanager
+    def _unsaid(self) -> Iterator[None]:
+        """Within this context nothing is noted of tyres."""
+        kept, said = (self.mixed.copy(), self.partly.copy()), len(self.notices)
+        try:
+            yield
+        finally:
+            self.mixed, self.partly = kept
+            del self.notices[said:]
+
+    def _strike_by(
+        self,
+        contact: Contact,
+        rule: int,
+        pair: _Between,
+        which: Any,
+        now: Any,
+        model: str | None = None,
+    ) -> None:
         which = self._refuse_meanwhile(rule, contact, which, now[which])
         if not len(which):
             return
@@ -819,7 +887,7 @@ class Followed:
                     else tuple(one[closes] if np.ndim(one) else one for one in part)
                     for part in (normal, point)
                 )
-        impact = self._solved(rule, contact, which, time, states, (normal, point))
+        impact = self._solved(rule, contact, which, time, states, (normal, point), model)
         refused = np.atleast_1d(np.asarray(impact.status)) > Status.ENERGY_GAIN
         if refused.any() and not self.single:
             labels = np.array([Status(code).label for code in np.ravel(impact.status).tolist()])
@@ -1142,7 +1210,43 @@ class Followed:
         )
 
     def _solved(
-        self, rule: int, contact: Contact, which: Any, time: Any, states: Any, place: Any
+        self,
+        rule: int,
+        contact: Contact,
+        which: Any,
+        time: Any,
+        states: Any,
+        place: Any,
+        model: str | None,
+    ) -> Impact:
+        """The impact of a contact, of one that takes the least model near enough by this one."""
+        if model is None or contact.in_time:
+            return self._solved_by(rule, contact, which, time, states, place)
+        whole = self.contacts[rule]
+        with quietly(), nullcontext() if contact.duration is not None else self._unsaid():
+            found = self._solved_by(rule, whole, which, time, states, place, on_failure="nan")
+        cases = np.isin(np.arange(self.count), which)
+        try:
+            with in_si(), of_some(cases, but=NO_ANSWER):
+                return by_candidate(found, model, None if self.single else "nan")
+        except CollisionsError as error:
+            raise self._at(error, rule, time) from None
+
+    def _at(self, error: CollisionsError, rule: int, time: Any) -> CollisionsError:
+        """The error with the contact and its time before it."""
+        contact = self.contacts[rule]
+        where = f"contacts[{rule}], {contact.a} and {contact.b} at {float(time[0]):.4g} s"
+        return placed(error, where)
+
+    def _solved_by(
+        self,
+        rule: int,
+        contact: Contact,
+        which: Any,
+        time: Any,
+        states: Any,
+        place: Any,
+        on_failure: OnFailure | None = None,
     ) -> Impact:
         take = self.ground.taker(which)
 
@@ -1178,8 +1282,7 @@ class Followed:
                     )
         if contact.model == "solve":
             options["tolerance"] = 0.0 if contact.tolerance is None else numbers(contact.tolerance)
-        if not self.single:
-            options["on_failure"] = "nan"
+        options["on_failure"] = on_failure if self.single else "nan"
         # Of a study, what is warned of is noted of the cases that come to this contact now; which
         # of them have no answer the run says itself.
         cases = np.isin(np.arange(self.count), which)
@@ -1187,8 +1290,7 @@ class Followed:
             with in_si(), of_some(cases, but=NO_ANSWER):
                 found: Impact = solver(a, b, numbers(contact.restitution), **options)
         except CollisionsError as error:
-            where = f"contacts[{rule}], {contact.a} and {contact.b} at {float(time[0]):.4g} s"
-            raise placed(error, where) from None
+            raise self._at(error, rule, time) from None
         return found
 
     def _tyres(
@@ -1276,10 +1378,38 @@ class Followed:
         for label, (name, _) in sides.items():
             during = None if in_time is None else During(in_time, label, every)
             tyres = contact.tyres_after.get(name)
-            self.courses[name].turn(which, time, hold, afters[label], tyres, during, lasting)
+            self._turn(name, which, (time, hold, lasting), afters[label], tyres, during, passed)
             if contact.duration is not None:
                 self.braked[name][which] = np.maximum(self.braked[name][which], time + hold)
         return ends
+
+    def _turn(
+        self,
+        name: str,
+        which: Any,
+        times: tuple[Any, Any, Any],
+        state: Any,
+        tyres: Tyres | None,
+        during: During | None,
+        passed: Any,
+    ) -> None:
+        """Let one vehicle go on after a contact: its tyres act again when no impulse of its
+        contacts has what they do, be it that of this contact or of an earlier one.
+        """
+        (time, hold, lasting), course = times, self.courses[name]
+        # How much of its contacts at the start was before it.
+        ahead = np.maximum(self.ahead[name][which], lasting - hold)
+        self.ahead[name][which] = np.where(time == 0.0, ahead, 0.0)
+        until = self.braked[name][which]
+        longer = ~passed & (until - time > hold)
+        own = np.where(longer, until - time, hold)
+        lasts = np.where(longer, own + self.ahead[name][which], lasting)
+        course.turn(which, time, own, state, tyres, during, lasts)
+        # One that was followed in time has its own end.
+        beyond = passed & (until > time + hold)
+        if beyond.any():
+            some, ends, rest = which[beyond], (time + hold)[beyond], (until - time - hold)[beyond]
+            course.turn(some, ends, rest, course.at(ends, some), None, None, rest)
 
     # What the scene contradicts
 

@@ -656,9 +656,11 @@ class Run(Frozen, Summarized):
             jumps += [acts, acts + float(leg.stops[0]), *(acts + moment for moment in steps)]
             if leg.during is not None:
                 jumps += (leg.start[0] + leg.during.moments).tolist()
-        for begin, end in pairwise(self._bounds()[:, 0].tolist()):
-            if end <= begin:
-                continue
+        # A leg may begin between two impacts, where tyres act again later than a contact has ended.
+        ends = float(self._bounds()[-1, 0])
+        starts = (float(leg.start[0]) for leg in course.settled())
+        pieces = {*self._bounds()[:, 0].tolist(), *(start for start in starts if start < ends)}
+        for begin, end in pairwise(sorted(pieces)):
             bounds = np.unique([begin, *(jump for jump in jumps if begin < jump < end), end])
             widths = np.diff(bounds)
             clock = (bounds[:-1, None] + widths[:, None] * _NODES).reshape(-1)
