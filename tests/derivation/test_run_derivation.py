@@ -89,3 +89,19 @@ def test_both_forms_and_what_is_refused() -> None:
         col.explain(coasting(), uncertainty={"energy_loss": 1.0})
     with pytest.raises(col.InputError, match="form"):
         col.explain(coasting(), form="latex")
+
+
+def test_what_limits_a_run_stands_before_its_impacts() -> None:
+    """In the units of the page, and every finding once."""
+    run = three_cars()
+    assert run.findings
+    page = col.explain(run, units="us", form="text")
+    before = page[: page.index("Impact 1:")]
+    assert "What the scene does not describe, or limits its answer:" in before
+    for found in run._findings_in("us"):
+        assert f"- {found.sentence}." in before
+    level = Scene(
+        movers={"A": Mover(col.Vehicle(mass=1500.0, vx=5.0, x=0.0, y=0.0, heading=0.0), drag=0.7)},
+        contacts=[],
+    ).run()
+    assert "limits its answer" not in col.explain(level, form="text")

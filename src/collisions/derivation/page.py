@@ -14,6 +14,7 @@ from ..messages.errors import InternalError
 from ..quantities.document import Document
 from ..quantities.formatting import clock, typeset
 from ..quantities.printed_tables import Part, in_markdown, ruled
+from ..quantities.user_text import plain
 from ..uncertainty.one_sided_output import range_in_words
 from .expressions import CALCULATOR, Direction, Expression, Pen, System, is_zero
 from .symbols import Symbol
@@ -87,8 +88,8 @@ class Page:
         """A user's name: unchanged in plain text, escaped in Markdown so that none of its
         characters is markup.
         """
-        plain = " ".join(text.split())
-        return _MARKS.sub(r"\\\1", plain) if self.latex else plain
+        shown = plain(text)
+        return _MARKS.sub(r"\\\1", shown) if self.latex else shown
 
     def symbol(self, symbol: Symbol) -> str:
         """A symbol within a sentence."""

@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 from ..impact.impact import Impact
 from ..messages.errors import CollisionsError
+from ..quantities.tables import as_sentence
 from ..scene.run import Run, as_letters
 from .page import Page
 
@@ -20,8 +21,13 @@ def scene_steps(page: Page, run: Run, steps: Callable[[Page, Impact], None]) -> 
     page.say(
         f"A scene of {', '.join(names)} with {len(run.impacts)} impact"
         f"{'s' * (len(run.impacts) != 1)}. Between impacts each vehicle moves over the ground by "
-        "its tyres or its drag; what is given for a later impact is the state that it comes with."
+        "its tyres or its drag, and unslowed while the duration of an impulse has not passed; what "
+        "is given for a later impact is the state that it comes with."
     )
+    found = run._findings_in(page.system.name)
+    if found:
+        page.say("What the scene does not describe, or limits its answer:")
+        page.listed([as_sentence(page.name(one.sentence)) for one in found])
     for number, (time, pair, impact) in enumerate(
         zip(run.times, run.pairs, run.impacts, strict=True)
     ):

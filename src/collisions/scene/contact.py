@@ -229,7 +229,7 @@ class Contact(Shown):
         kept = {name: self.as_given(name) for name in NAMES}
         return Contact(**{**kept, **changes})
 
-    def by_model(self, model: str) -> Contact:
+    def _by_model(self, model: str) -> Contact:
         """The contact of "solve" as one of the models that it takes has it: in time, or an impulse,
         which without that of tyres has no duration.
         """

@@ -823,7 +823,7 @@ class Followed:
         for number in np.unique(pair.model[which]).tolist():
             some = which[pair.model[which] == number]
             model = _LEAST_OF[number]
-            self._strike_by(contact.by_model(model), rule, pair, some, now, model)
+            self._strike_by(contact._by_model(model), rule, pair, some, now, model)
 
     def _decide(self, contact: Contact, rule: int, pair: _Between, which: Any, now: Any) -> None:
         """Decide by which model some cases of a contact are worked out."""
@@ -831,7 +831,7 @@ class Followed:
         states = {name: self.courses[name].at(time, which) for name in (contact.a, contact.b)}
         begins = contact
         if contact.may_be_in_time:
-            begins = contact.by_model(IN_TIME)
+            begins = contact._by_model(IN_TIME)
         # What cannot be decided is refused where it strikes.
         found: Any = _LEAST_OF.index("eccentric")
         with self._unsaid(), quietly(), suppress(CollisionsError):
