@@ -452,6 +452,28 @@ def test_a_contact_at_the_moment_of_another_has_its_tyres_for_nothing() -> None:
     assert of_b == pytest.approx([0.0, 0.05 + 0.15 - 0.075, 0.15], abs=1e-6)
 
 
+@pytest.mark.parametrize(("first", "second"), [(0.04, 0.1), (0.1, 0.04), (0.1, 0.1)])
+def test_contacts_about_one_moment_have_the_tyres_for_the_longest_together(
+    first: float, second: float
+) -> None:
+    """Each has half of its time before it."""
+    movers = {
+        name: Mover(car(x=x, vx=vx), tyres=Tyres(0.8, 1.0, 2.7, 1.5))
+        for name, x, vx in (("A", -5.0, 14.0), ("B", 0.0, 6.0), ("C", 5.0, 0.0))
+    }
+    rule: dict[str, Any] = {"restitution": 0.1, "friction": 0.4, "normal": 0.0}
+    rule["model"] = "eccentric"
+    contacts = [
+        Contact("A", "B", point=(-2.5, 0.0), duration=first, **rule),
+        Contact("B", "C", point=(2.5, 0.0), duration=second, **rule),
+    ]
+    run = Scene(movers=movers, contacts=contacts).run()
+    one, two = run.impacts
+    taken = -(one.b.tyre_impulse_x + two.a.tyre_impulse_x) / (0.8 * 9.80665 * 1500.0)
+    assert taken == pytest.approx(max(first, second), rel=1e-9)
+    assert run.at(0.049)["B"].vx == two.a.after.vx
+
+
 @pytest.mark.parametrize("slope", [0.0, -0.06, 0.06])
 @pytest.mark.parametrize(
     ("model", "duration"),

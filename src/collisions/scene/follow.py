@@ -256,8 +256,10 @@ class Followed:
         self.many: Any = np.zeros(self.count, dtype=int)
         # By mover, until when the last contact that was followed in time lasts.
         self.lasts: dict[str, Any] = {name: np.zeros(self.count) for name in movers}
-        # By mover, until when the impulses of its contacts have what its tyres do.
-        self.braked: dict[str, Any] = {name: np.full(self.count, -np.inf) for name in movers}
+        # By mover, from when and until when the impulses of its contacts have what its tyres do.
+        self.braked: dict[str, Any] = {
+            name: np.repeat([[np.inf], [-np.inf]], self.count, axis=1) for name in movers
+        }
         # By mover, how long its contacts at the start had lasted by then [s].
         self.ahead: dict[str, Any] = {name: np.zeros(self.count) for name in movers}
         self._pairs = self._all_pairs()
@@ -1313,7 +1315,10 @@ class Followed:
             )
             self.notices.append(Noted("mixed_friction", text, float(time[0]), (name,)))
         lasting, hold = self._duration(contact, which, time)
-        had = np.clip(self.braked[name][which] - (time + hold - lasting), 0.0, lasting)
+        begin, until = self.braked[name][:, which]
+        ends = time + hold
+        had = np.minimum(until, ends) - np.maximum(begin, ends - lasting)
+        had = np.clip(had, 0.0, lasting)
         # One that follows at once on another shares nothing with it but rounding.
         had = np.where(had > _SHARED * lasting, had, 0.0)
         if not had.any():
@@ -1380,7 +1385,9 @@ class Followed:
             tyres = contact.tyres_after.get(name)
             self._turn(name, which, (time, hold, lasting), afters[label], tyres, during, passed)
             if contact.duration is not None:
-                self.braked[name][which] = np.maximum(self.braked[name][which], time + hold)
+                begin, until = self.braked[name][:, which]
+                begin = np.minimum(begin, time + hold - lasting)
+                self.braked[name][:, which] = begin, np.maximum(until, time + hold)
         return ends
 
     def _turn(
@@ -1400,7 +1407,7 @@ class Followed:
         # How much of its contacts at the start was before it.
         ahead = np.maximum(self.ahead[name][which], lasting - hold)
         self.ahead[name][which] = np.where(time == 0.0, ahead, 0.0)
-        until = self.braked[name][which]
+        until = self.braked[name][1, which]
         longer = ~passed & (until - time > hold)
         own = np.where(longer, until - time, hold)
         lasts = np.where(longer, own + self.ahead[name][which], lasting)
