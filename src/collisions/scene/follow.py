@@ -738,8 +738,10 @@ class Followed:
         early = np.full(len(cases), contact.in_time)
         if contact.takes_least and contact.may_be_in_time:
             early = pair.model[cases] < 0
+            pair.seen[cases] = due
+        elif contact.in_time:
+            pair.seen[cases] = due
         pair.due[cases], pair.deepest[cases] = np.where(early, touch, due), deepest
-        pair.seen[cases] = np.where(early, due, pair.seen[cases])
 
     def _refuse_bare(self, pair: _Between, moving: Pair, cases: Any, amount: Any) -> None:
         """Refuse a point at bare first touch where two faces meet."""
@@ -811,7 +813,7 @@ class Followed:
         if not contact.takes_least:
             self._strike_by(contact, rule, pair, which, now)
             return
-        fresh = which[pair.model[which] < 0]
+        fresh = which[pair.model[which] < 0] if contact.touches else which
         if len(fresh):
             self._decide(contact, rule, pair, fresh, now)
         # What was decided at first touch to take no time acts when an impulse does.
@@ -1003,6 +1005,7 @@ class Followed:
         if not len(some):
             return
         contact = self.contacts[pair.rule]
+        pair.model[some] = -1
         pair.touch[some], pair.closing[some] = time[driven], closing[driven]
         pair.axis[some], pair.deepest[some] = widest[driven], False
         pair.due[some] = pair.seen[some] = time[driven]
