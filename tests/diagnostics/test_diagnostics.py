@@ -816,6 +816,22 @@ def test_speeds_backwards_and_units_of_momentum():
     )
 
 
+def test_a_contact_followed_in_time_has_its_own_duration_and_drag():
+    """Of bare stiffnesses of a US table it lasts seconds; 7 m/s² is no drag."""
+    a = col.Vehicle(mass=1600.0, yaw_inertia=2650.0, x=-2.1, y=0.0, heading=0.0, vx=13.4)
+    b = col.Vehicle(mass=1300.0, yaw_inertia=1950.0, x=2.1, y=0.15, heading=0.0)
+    given = {"normal": 0.0, "point": (0.0, 0.06), "friction": 0.5, "geometry": "fixed"}
+    slow = col.time_resolved(a, b, 0.1, **given, stiffness=800.0)
+    (found,) = of("suspect_duration", slow)
+    assert found.measured == pytest.approx(slow.pulse.duration / 0.147)
+    assert f"last {slow.pulse.duration:.6g} s" in found.sentence
+    dragged = col.time_resolved(a, b, 0.1, **given, duration=0.1, drag="700 %")
+    assert of("suspect_drag", dragged)[0].measured == 7.0
+    assert of("suspect_duration", dragged) == []
+    fine = col.time_resolved(a, b, 0.1, **given, duration=0.1)
+    assert of("suspect_drag", fine, drag="700 %") == []
+
+
 def test_a_mass_with_a_unit_is_not_asked_for_another():
     """A motorcycle weighs less than any car, and its unit was given."""
     car = col.Vehicle(mass=1500, vx="30 mph", x=0, y=0, heading=0)

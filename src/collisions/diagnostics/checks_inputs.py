@@ -8,6 +8,7 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
+from ..impact.impact import Impact
 from ..impact.inputs import PLACED, Inputs
 from ..reference import CONTACT_DURATION
 from ..vehicle.drag import HIGHEST_DRAG
@@ -284,11 +285,18 @@ def suspect_friction(case: ImpactCase) -> Iterator[Measured]:
     "m/s² as a fraction of gravity",
 )
 def suspect_drag(case: Case) -> Iterator[Measured]:
+    impact = _in_time(case)
+    drag = case.drag if impact is None else impact.inputs.drag or 0.0
     sentence = (
-        f"the tyres are taken to have a drag of {case.drag:.6g} of gravity; were percent or m/s² "
-        "meant?"
+        f"the tyres are taken to have a drag of {drag:.6g} of gravity; were percent or m/s² meant?"
     )
-    yield Measured(case.drag, sentence)
+    yield Measured(drag, sentence)
+
+
+def _in_time(case: Case) -> Impact | None:
+    """The impact, where it was followed in time and so has a duration and a drag of its own."""
+    impact = case.answer if isinstance(case, ImpactCase) else None
+    return impact if impact is not None and impact.pulse is not None else None
 
 
 @finding(
@@ -298,9 +306,11 @@ def suspect_drag(case: Case) -> Iterator[Measured]:
     "set here: no contact of vehicles lasts ten times reference.CONTACT_DURATION; ms as s",
 )
 def suspect_duration(case: Case) -> Iterator[Measured]:
-    times = case.duration / CONTACT_DURATION.high
+    impact = _in_time(case)
+    duration = case.duration if impact is None or impact.pulse is None else impact.pulse.duration
+    times = duration / CONTACT_DURATION.high
     sentence = (
-        f"the contact is taken to last {case.duration:.6g} s, {times:.3g} times what was "
+        f"the contact is taken to last {duration:.6g} s, {times:.3g} times what was "
         "published; check it and its unit"
     )
     yield Measured(times, sentence)
