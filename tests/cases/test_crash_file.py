@@ -265,6 +265,7 @@ def test_what_a_scene_shares_is_stated_alike() -> None:
     (line,) = problems(text + '[scene.shared]\nroad = ["A.drag", "B.drag"]\n')
     assert line.startswith("scene.shared.road: says that A.drag, B.drag are one and the same")
     assert "write the same text at each" in line
+    assert "(nothing uncertain of B.drag)" in line
 
 
 def test_a_shared_name_that_is_a_path_is_refused() -> None:

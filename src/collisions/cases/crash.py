@@ -140,11 +140,14 @@ def _share(reader: Reader, shared: Any) -> None:
         if not stated:
             continue
         said = {str(one.stated) for one in stated.values()}
-        if len(stated) < len(paths) or len(said) > 1:
+        without = [path for path in paths if path not in stated]
+        if without or len(said) > 1:
             reader.refuse(
                 f"{SCENE}.shared.{name}",
                 f"says that {', '.join(paths)} are one and the same, and the file does not "
-                "state the same of each; write the same text at each of these paths",
+                "state the same of each"
+                + (f" (nothing uncertain of {', '.join(without)})" if without else "")
+                + "; write the same text at each of these paths",
             )
             continue
         first = next(iter(stated.values()))
