@@ -949,6 +949,32 @@ def test_a_model_that_bends_has_the_range_in_which_chi_squared_rises_by_less(cov
     assert found["x"].interval(coverage) == pytest.approx(ends, abs=0.004)
 
 
+@pytest.mark.parametrize("coverage", [0.5, 0.68, 0.8, 0.9, 0.95, 0.99])
+def test_every_probability_has_its_own_range_where_the_model_bends_hard(coverage):
+    """exp(x) of 1 known to 0.6: its logarithm, z errors off, is -4.34 at 90 percent and beyond the
+    bound at 95. Ends that are fitted are right to a thousandth of the half-width, and those of 68
+    percent, between them, to a hundredth.
+    """
+    found, _ = fitted(lambda x: {"y": np.exp(x)}, {"x": Interval(-5.0, 5.0)}, {"y": (1.0, 0.6)})
+    off = 0.6 * score(coverage)
+    exact = (math.log(1.0 - off) if off < 1.0 else -5.0, math.log(1.0 + off))
+    near = (0.01 if coverage == 0.68 else 0.001) * 0.5 * (exact[1] - exact[0])
+    assert found["x"].interval(coverage) == pytest.approx(exact, abs=near)
+
+
+def test_ranges_of_higher_probabilities_hold_those_of_lower_ones():
+    """Also where several valleys make up a range."""
+    unknowns = {"x": Interval(-3, 3), "y": Interval(-3, 5)}
+    found, _ = fitted(
+        lambda x, y: {"o": 10.0 * (y - x * x), "x": x},
+        unknowns,
+        {"o": (0.0, 0.01), "x": (1.0, 0.5)},
+    )
+    low, high = np.array([found["y"].interval(p) for p in np.linspace(0.01, 0.999, 200)]).T
+    assert np.all(np.diff(low) <= 0.0)
+    assert np.all(np.diff(high) >= 0.0)
+
+
 def test_a_valley_that_bends_has_the_range_of_its_floor():
     """y meets x^2 and x is 1 with an error of 1: the range of y is the square of that of x."""
 

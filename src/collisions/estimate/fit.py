@@ -726,7 +726,10 @@ def _with_profiles(fits: list[Fit], found: list[tuple[_Candidate, Found]]) -> di
     names = fits[0].names
     return {
         "profiles": {
-            names[j]: tuple(table([one.sides[j] for _, one in found])) for j in found[0][1].sides
+            names[j]: tuple(
+                table([one.sides[j] for _, one in found], [one.closer[j] for _, one in found])
+            )
+            for j in found[0][1].sides
         },
         "others": tuple(fits[1:]),
         "refuses_nearby": any(one.refused for _, one in found),
@@ -740,7 +743,9 @@ def _with_own(fit: Fit, found: _Candidate) -> Fit:
     which = found.bent if found.converged else range(len(found.point))
     covariance = found.determination.covariance
     own = followed(found.problem, found.point, found.chi_squared, covariance, which)
-    profiles = {fit.names[j]: tuple(table([both])) for j, both in own.sides.items()}
+    profiles = {
+        fit.names[j]: tuple(table([both], [own.closer[j]])) for j, both in own.sides.items()
+    }
     return replace(fit, profiles=profiles, refuses_nearby=own.refused)
 
 

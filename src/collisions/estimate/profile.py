@@ -10,7 +10,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from typing import Any, NamedTuple
+from itertools import pairwise
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -19,6 +20,7 @@ from .least_squares import Ends, Problem, minimise, spread
 
 _AT_95 = 8
 LEVELS = score_of_coverage(0.95) / _AT_95 * np.arange(13)  # sigma
+_OFTEN_ASKED = tuple(score_of_coverage(share) for share in (0.5, 0.8, 0.9, 0.99))  # besides
 SAME_CHI_SQUARED = 1e-3  # misfits within this are the same
 _RISE = 0.98  # sigma, aimed at from one value to the next: two lead to 95 percent
 _MOST_RISE, _LONGER, _SHORTEST = 1.5, 4.0, 1e-3  # of steps, the last a part of the first
@@ -35,7 +37,9 @@ _ELSEWHERE, _FAR_OFF, _AWAY = 8, 8, 3.0
 _TRIED, _TRIED_FAR_OFF, _FIRST_ROUNDS = 4, 4, 3
 _DEPARTS = 0.1  # sigma: places where the model is nearer to its slopes need no search
 _ALIKE = 0.02  # of the way, and sigma: ends this near each other need no fit in between
+_CLOSELY_ALIKE = 0.005  # the same for what else is often asked: none of it was aimed at
 _MOST_REFINED = 3  # fits in between
+_STRAIGHT, _MOST_HALVED = 2e-4, 7  # of a side: rows bend by less; and how often they are halved
 _PUT_RIGHT, _MOST_PUT_RIGHT = 0.01, 8  # of the way: an end that moves less is right; and fits
 _LOWER = 0.05  # of chi-squared: what is lower by less is the same valley
 
@@ -93,9 +97,9 @@ class Side(NamedTuple):
         way = math.copysign(1.0, self.bound - self.values[0])
         return float(np.interp(way * value, way * self.values, self.rises))
 
-    def in_doubt(self, level: float) -> Place | None:
+    def in_doubt(self, level: float, alike: float) -> Place | None:
         """The place of the furthest value with this rise, if it is between others and a straight
-        line in the rise leads elsewhere.
+        line in the rise leads elsewhere, by more than is ``alike``.
         """
         inside = np.flatnonzero(self.rises <= level)
         k = int(inside[-1]) if inside.size else len(self.values)
@@ -105,11 +109,11 @@ class Side(NamedTuple):
         straight = low + (high - low) * (level - self.rises[k]) / (
             self.rises[k + 1] - self.rises[k]
         )
-        alike = abs(end - straight) <= _ALIKE * abs(end - self.values[0])
-        near = min(abs(self.rises[k : k + 2] - level)) <= _ALIKE
+        same = abs(end - straight) <= alike * abs(end - self.values[0])
+        near = min(abs(self.rises[k : k + 2] - level)) <= alike
         # Values so near to each other that rounding leaves none between them tell no more.
         between = min(low, high) < end < max(low, high)
-        return self.place(end) if between and not (alike or near) else None
+        return self.place(end) if between and not (same or near) else None
 
     def place(self, value: float) -> Place:
         """The place of a value, with all unknowns as straight lines put them."""
@@ -157,11 +161,12 @@ class Side(NamedTuple):
 
 
 class Found(NamedTuple):
-    """Both sides of each unknown that was followed, by its place, and the least misfit met on the
-    way.
+    """Both sides of each unknown that was followed, by its place; the same with what was fitted for
+    ranges of other probabilities than 95 percent; and the least misfit met on the way.
     """
 
     sides: dict[int, tuple[Side, Side]]
+    closer: dict[int, tuple[Side, Side]]
     lowest: float
     at: Any
 
@@ -222,27 +227,34 @@ def followed(
     pieces, least = _pieces(quick, start, point, chi_squared, covariance, which)
     if quick is not problem:
         _put_right(problem, chi_squared, pieces)
-    sides = {j: (_joined(low), _joined(high)) for j, (low, high) in pieces.items()}
-    return Found(sides, *least)
+    sides = _joined(pieces)
+    alike = _CLOSELY_ALIKE if quick is problem else _ALIKE  # calls of a finer model are dear
+    _refine(problem, chi_squared, _by_side(pieces), _OFTEN_ASKED, alike)
+    return Found(sides, _joined(pieces), *least)
 
 
-def _joined(pieces: list[Side]) -> Side:
-    """A side of its pieces: that of the answer, and those of other valleys."""
-    return pieces[0]._replace(valleys=tuple(pieces[1:]))
+_Pieces: TypeAlias = dict[int, tuple[list[Side], list[Side]]]
 
 
-def _put_right(
-    problem: Problem, chi_squared: float, pieces: dict[int, tuple[list[Side], list[Side]]]
-) -> None:
+def _joined(pieces: _Pieces) -> dict[int, tuple[Side, Side]]:
+    """Each side of its pieces: that of the answer, and those of other valleys."""
+    low, high = (
+        {j: both[way][0]._replace(valleys=tuple(both[way][1:])) for j, both in pieces.items()}
+        for way in (0, 1)
+    )
+    return {j: (low[j], high[j]) for j in pieces}
+
+
+def _by_side(pieces: _Pieces) -> list[tuple[int, list[Side]]]:
+    """The pieces of each side, with the unknown that is held."""
+    return [(j, side) for j, both in pieces.items() for side in both]
+
+
+def _put_right(problem: Problem, chi_squared: float, pieces: _Pieces) -> None:
     """Fit at the end of 95 percent of each piece by slopes of the model itself, until that moves
     it no more.
     """
-    asked = [
-        (j, side, i, math.nan)
-        for j, both in pieces.items()
-        for side in both
-        for i in range(len(side))
-    ]
+    asked = [(j, side, i, math.nan) for j, side in _by_side(pieces) for i in range(len(side))]
     for _ in range(_MOST_PUT_RIGHT):
         moved = []
         for j, side, i, was in asked:
@@ -272,7 +284,7 @@ def _pieces(
     chi_squared: float,
     covariance: Any,
     which: Iterable[int],
-) -> tuple[dict[int, tuple[list[Side], list[Side]]], tuple[float, Any]]:
+) -> tuple[_Pieces, tuple[float, Any]]:
     """For both sides of each of these unknowns the piece of the answer and those of other valleys;
     and the least misfit met on the way, with its place.
     """
@@ -329,39 +341,47 @@ def _pieces(
         asked = {
             k: track.reached for k, track in zip(owners, tracks[::2], strict=True) if track.reached
         }
-    _refine(problem, chi_squared, begins, pieces)
     both = {begins[k].unknown: (pieces[k], pieces[k + 1]) for k in range(0, len(begins), 2)}
+    _refine(problem, chi_squared, _by_side(both), (LEVELS[_AT_95],), _ALIKE)
     return both, least
 
 
 def _refine(
-    problem: Problem, chi_squared: float, begins: list[_Begin], pieces: list[list[Side]]
+    problem: Problem,
+    chi_squared: float,
+    sides: list[tuple[int, list[Side]]],
+    levels: Sequence[float],
+    alike: float,
 ) -> None:
-    """Fits where the pieces of each side put the end of 95 percent, where that is in doubt."""
-    level = LEVELS[_AT_95]
+    """Fits where the pieces of each side, with the unknown that is held, put the ends of these
+    rises, where that is in doubt.
+    """
     for _ in range(_MOST_REFINED):
         asked = [
-            (k, i, place)
-            for k, side in enumerate(pieces)
+            (j, side, i, place)
+            for j, side in sides
             for i, piece in enumerate(side)
-            if (place := piece.in_doubt(level))
+            for level in levels
+            if (place := piece.in_doubt(level, alike))
         ]
         if not asked:
             break
         # From both sides, since there may be a kink in between.
         starts = np.concatenate(
-            [pieces[k][i].points[at.number - 1 : at.number + 1] for k, i, at in asked]
+            [side[i].points[at.number - 1 : at.number + 1] for _, side, i, at in asked]
         )
-        held = np.repeat([begins[k].unknown for k, *_ in asked], 2)
+        held = np.repeat([j for j, *_ in asked], 2)
         starts[np.arange(len(held)), held] = np.repeat([at.value for *_, at in asked], 2)
         kept = np.arange(starts.shape[1]) == held[:, np.newaxis]
         ends = minimise(problem, starts, held=kept, close=_CLOSE, rounds=_LAST_ROUNDS)
         climbs = _climbs(problem, ends, held)
-        for row, (k, i, at) in zip(range(0, len(held), 2), asked, strict=True):
+        for row, (_, side, i, at) in zip(range(0, len(held), 2), asked, strict=True):
             row += int(np.argmin(ends.chi_squared[row : row + 2]))
             rise = math.sqrt(max(0.0, ends.chi_squared[row] - chi_squared))
             if math.isfinite(rise):
-                pieces[k][i] = pieces[k][i].with_place(at, rise, climbs[row], ends.points[row])
+                # Another end may have been put before it.
+                place = side[i].place(at.value)
+                side[i] = side[i].with_place(place, rise, climbs[row], ends.points[row])
 
 
 def _follow(
@@ -518,13 +538,61 @@ def _climbs(problem: Problem, ends: Ends, unknowns: Any) -> Any:
     return gradient[np.arange(len(unknowns)), unknowns]
 
 
-def table(pairs: list[tuple[Side, Side]]) -> list[tuple[float, float, float]]:
+def table(
+    pairs: list[tuple[Side, Side]], closer: list[tuple[Side, Side]]
+) -> list[tuple[float, float, float]]:
     """Rise of the misfit in sigma, and the least and the greatest value with no more, of all these
-    profiles of one unknown; the first is that of the best answer.
+    profiles of one unknown; the first is that of the best answer. The row of 95 percent is of the
+    ``pairs``, others of those that are ``closer``, with more rows where straight lines between
+    them lead elsewhere.
     """
-    rows, low, high = [], math.inf, -math.inf
-    for level in LEVELS.tolist():
-        low = min([low, *(x for one in pairs if not math.isnan(x := one[0].reach(level)))])
-        high = max([high, *(x for one in pairs if not math.isnan(x := one[1].reach(level)))])
-        rows.append((level, low, high))
+    levels = LEVELS.tolist()
+    at_95 = _widening([_reached(pairs, level) for level in levels])[_AT_95]
+    low, high = np.array(_widening([_reached(closer, level) for level in levels])).T
+    inside = np.arange(len(levels)) < _AT_95
+    low = np.where(inside, np.maximum(low, at_95[0]), np.minimum(low, at_95[0]))
+    high = np.where(inside, np.minimum(high, at_95[1]), np.maximum(high, at_95[1]))
+    low[_AT_95], high[_AT_95] = at_95
+    rows = list(zip(levels, low.tolist(), high.tolist(), strict=True))
+    finite = [one[np.isfinite(one)] for one in (low, high)]
+    near = [_STRAIGHT * float(np.ptp(one)) if one.size else 0.0 for one in finite]
+    for _ in range(_MOST_HALVED):
+        halved = rows[:1]
+        for below, above in pairwise(rows):
+            level = 0.5 * (below[0] + above[0])
+            least, most = _reached(closer, level)
+            middle = (
+                level,
+                min(max(least, above[1]), below[1]),
+                max(min(most, above[2]), below[2]),
+            )
+            bent = any(
+                _off_line(middle[side], below[side], above[side]) > near[side - 1]
+                for side in (1, 2)
+            )
+            halved += [middle, above] if bent else [above]
+        if len(halved) == len(rows):
+            break
+        rows = halved
     return rows
+
+
+def _reached(pairs: list[tuple[Side, Side]], level: float) -> tuple[float, float]:
+    """The least and the greatest value of all these profiles with no more than this rise."""
+    low, high = (
+        [x for pair in pairs if not math.isnan(x := pair[side].reach(level))] for side in (0, 1)
+    )
+    return min(low, default=math.inf), max(high, default=-math.inf)
+
+
+def _widening(ends: list[tuple[float, float]]) -> list[tuple[float, float]]:
+    """Each range with those before it: none shrinks as chi-squared may rise further."""
+    low, high = np.array(ends).T
+    low, high = np.minimum.accumulate(low), np.maximum.accumulate(high)
+    return list(zip(low.tolist(), high.tolist(), strict=True))
+
+
+def _off_line(middle: float, below: float, above: float) -> float:
+    """How far a value is from half-way between two; 0 for infinities that are the same."""
+    straight = 0.5 * (below + above)
+    return 0.0 if middle == straight else abs(middle - straight)
