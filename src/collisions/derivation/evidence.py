@@ -8,6 +8,7 @@ import math
 from collections.abc import Iterator, Mapping
 
 from ..impact.instant import LIMITED
+from ..messages.shares import chance
 from ..quantities.formatting import KIND_OF, in_words, percent
 from ..quantities.tables import as_sentence
 from ..reconstruct import Fit, MomentumSolution
@@ -485,8 +486,12 @@ def _misfit(page: Page, found: Fit) -> Iterator[tuple[str, str, str]]:
     yield "all", "chi-squared", f"{found.chi_squared:.4g}"
     freedom = "degrees of freedom (observations and priors less the unknowns they determine)"
     yield "all", freedom, str(found.degrees_of_freedom)
-    chance = in_words(found.p_value) if math.isnan(found.p_value) else f"{found.p_value:.2g}"
-    yield "all", "chance of such a chi-squared or a larger one", chance
+    p_value = found.p_value
+    yield (
+        "all",
+        "chance of such a chi-squared or a larger one",
+        in_words(p_value) if math.isnan(p_value) else chance(p_value),
+    )
     yield (
         "all",
         "by how much so many standard errors are off, as the model bends",

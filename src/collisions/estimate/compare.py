@@ -12,6 +12,7 @@ from typing import Any
 
 from ..messages.errors import CollisionsWarning, InputError
 from ..messages.hints import hinted
+from ..messages.shares import chance
 from ..messages.warning import Note, warn_of
 from ..quantities.reading import ArgumentReader
 from ..quantities.refusals import must_be
@@ -21,6 +22,7 @@ from ..quantities.units import shown
 from .posterior_result import Posterior, notes_of
 
 _SUM_TOL = 1e-9  # of probabilities that were stated
+_FIGURES = 3  # of probabilities
 _MOST = math.log(1e6)  # beyond it a factor is a matter of the tails of errors that nobody knows
 
 
@@ -75,10 +77,15 @@ class Comparison(Summarized):
         )
         return written
 
+    def _with_error(self, name: str) -> str:
+        """A probability with its error, which stands beside no "more than" or "less than"."""
+        text = chance(self.probability[name], _FIGURES)
+        return text if " " in text else f"{text} ± {self.probability_error[name]:.1g}"
+
     def _summary(self, numbers: Cells) -> Summary:
         rows = [
-            (name, f"{value:.3g} ± {self.probability_error[name]:.1g}", f"{self.prior[name]:.3g}")
-            for name, value in self.probability.items()
+            (name, self._with_error(name), chance(self.prior[name], _FIGURES))
+            for name in self.probability
         ]
         stated = [
             (name, "; ".join(f"{key} {prior}" for key, prior in priors.items()))
@@ -269,8 +276,8 @@ def _sentence(
                 "error)"
             )
         parts.append(f'{times} more probable if "{best}" is true than if "{other}" is')
-    stated = _listed(f'{before[name]:.3g} for "{name}"' for name in before)
-    found = _listed(f"{after[name]:.3g}" for name in before)
+    stated = _listed(f'{chance(before[name], _FIGURES)} for "{name}"' for name in before)
+    found = _listed(chance(after[name], _FIGURES) for name in before)
     return (
         f"The evidence is {' and '.join(parts)}. Prior probabilities of {stated} become {found}. "
         "This holds for the priors of each account as they are stated; wider or narrower ones "

@@ -20,6 +20,7 @@ from ..messages.errors import (
     NoSolutionError,
     SuspectUnitsWarning,
 )
+from ..messages.shares import chance as chance_in_words
 from ..messages.warning import AGREES, Note
 from ..quantities.attributes import OWN_UNIT, Shown, derived
 from ..quantities.refusals import LATERAL, must_be
@@ -572,7 +573,7 @@ def agreement(
     apart: Mapping[str, float] = MappingProxyType({}),
 ) -> Note:
     """Whether the evidence agrees with itself, by the chance of its misfit in two digits, never
-    rounded across a limit; ``apart`` is what else may be off, in sigma.
+    rounded across a limit or to a certainty; ``apart`` is what else may be off, in sigma.
     """
     text = f"{p_value:.2g}"
     text = next(
@@ -581,7 +582,7 @@ def agreement(
             for limit in (_WEAK, CONTRADICTION)
             if p_value < limit <= float(text)
         ),
-        text,
+        chance_in_words(p_value),
     )
     chance = f"a misfit this large or larger has a chance of {text}"
     if p_value >= _WEAK:

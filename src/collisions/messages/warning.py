@@ -17,6 +17,7 @@ import numpy as np
 
 from .errors import CollisionsWarning
 from .marked import plain
+from .shares import in_percent
 
 # A warning of fewer samples than this share is stated with the result, but not raised, unless it
 # has a share of its own.
@@ -278,7 +279,7 @@ def notes_of_samples(calls: Calls, *, worked_back: bool = False) -> tuple[Note, 
             sentence = _WITHIN_SEVERAL + sentence.removeprefix(_WITHIN)
         # A share that is not known may be any.
         at_most = 1.0 if uncounted else cases / total
-        of = f"{cases} of {total} cases ({100.0 * at_most:.3g} %): "
+        of = f"{cases} of {total} cases ({in_percent(cases, total)}): "
         fields: dict[str, Any] = {"cases": cases, "share": at_most}
         if least in (0.0, math.inf):
             of, fields = "", {}

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..messages.errors import InputError
+from ..messages.shares import in_percent
 from ..messages.warning import Note
 from ..quantities.attributes import OWN_UNIT, derived
 from ..quantities.formatting import Numbers
@@ -214,7 +215,7 @@ def one_sided_notes(outputs: Mapping[str, Output]) -> Iterator[Note]:
             if share > 0.0:
                 yield Note(
                     None,
-                    f"{name} is known from one side only in {100.0 * share:.3g} % of the "
+                    f"{name} is known from one side only in {in_percent(share, 1.0)} of the "
                     f"cases, as {word} its value: the {end} end of a range is infinite where "
                     "these decide it, and mean and standard deviation do not exist. "
                     "`reconstruct.posterior` with a prior for it has two sides",

@@ -17,6 +17,7 @@ from ..messages.errors import CollisionsWarning, InputError, NoSolutionError, Ou
 from ..messages.hints import hinted
 from ..messages.marked import type_of
 from ..messages.progress import reporter
+from ..messages.shares import in_percent
 from ..messages.warning import NO_ANSWER, Note, leave_to_outer, notes_of_samples, warn_of
 from ..quantities.reading import ArgumentReader, is_whole
 from ..quantities.refusals import must_be
@@ -750,7 +751,7 @@ def _notes(
         notes.append(
             Note(
                 OutOfRangeWarning,
-                f"{failed} of {count} cases ({100.0 * failed / count:.2f} %) had no answer and "
+                f"{failed} of {count} cases ({in_percent(failed, count)}) had no answer and "
                 "are left out: the figures hold only where there is one",
                 ""
                 if any(note.code in ("stuck_or_slid", "friction_differs") for note in notes)

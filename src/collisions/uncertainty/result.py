@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..messages.errors import InputError, OutOfRangeWarning
+from ..messages.shares import in_percent
 from ..messages.warning import Note
 from ..quantities.attributes import (
     OWN_UNIT,
@@ -519,9 +520,7 @@ class Sampled(Output):
     def _given(self) -> str:
         if not self.failed:
             return self.given
-        return (
-            f"{self.given}, and an answer: {100.0 * self.failed / self.values.size:.3g} % have none"
-        )
+        return f"{self.given}, and an answer: {in_percent(self.failed, self.values.size)} have none"
 
     def turned(self, turns: float) -> Sampled:
         """The same directions plus this many turns.
@@ -778,7 +777,7 @@ def unanswered_notes(outputs: Mapping[str, Sampled]) -> Iterator[Note]:
             yield Note(None, f"none of the {count} samples has {name!r}, and it has no figures")
         elif failed:
             sentence = (
-                f"{failed} of {count} samples ({100.0 * failed / count:.3g} %) have no {name!r}, "
+                f"{failed} of {count} samples ({in_percent(failed, count)}) have no {name!r}, "
                 "and its figures are of the others: they hold only where there is one"
             )
             fields = {"failed": failed, "output": name}
