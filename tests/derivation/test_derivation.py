@@ -1204,6 +1204,32 @@ def test_an_uncertainty_of_nothing_known_is_refused(known, kind, code, said):
     assert code in (None, caught.value.code)
 
 
+@pytest.mark.parametrize("given", ["restitution", "a.before.vx", "b_before_speed", "a.tyre_loss"])
+def test_an_uncertainty_of_what_is_not_printed_is_refused(given):
+    """What was given to a forward impact is none of its answers, and would be left out in silence;
+    the refusal names those that are printed.
+    """
+    with pytest.raises(
+        col.InputError, match=rf"names no answer of this derivation: '{given}'; "
+    ) as refused:
+        explain(crossroads(), form="text", uncertainty={given: 0.03, "b.after.vx": 0.2})
+    assert refused.value.code == "no_output"
+    listed = str(refused.value).partition("the answers are ")[2]
+    assert listed.startswith("a.after.vx, ")
+    assert given not in listed
+    for name in listed.split(", "):
+        # 0.03 of its unit is printed of each that the refusal names.
+        assert "±" in explain(crossroads(), form="text", uncertainty={name: 0.03})
+
+
+def test_a_propagation_of_what_is_not_printed_alone_is_refused():
+    spread = uncertainty.propagate(
+        lambda e: {"restitution": e}, {"e": uncertainty.Normal(0.2, 0.03)}, seed=1
+    )
+    with pytest.raises(col.InputError, match="names no answer of this derivation: restitution"):
+        explain(crossroads(), uncertainty=spread)
+
+
 def test_all_deviations_that_are_many_are_named_at_once():
     """As other wrong arguments are."""
     known = dict.fromkeys(("energy_loss", "a.delta_v"), np.array([1.0, 2.0]))

@@ -29,7 +29,7 @@ from ..uncertainty.distributions import Interval
 from ..uncertainty.result import Output, Propagation, ends_of, varies
 from ..vehicle.vehicle import Vehicle, named
 from .contact import impulse_and_energy, motions, normal
-from .evidence import MOMENTUM_ANSWERS, fit, momentum
+from .evidence import MOMENTUM_ANSWERS, fit, momentum, momentum_answers
 from .expressions import System
 from .models import eccentric, linear, oblique, time_resolved
 from .page import Page
@@ -163,7 +163,8 @@ def explain(
         Markdown with LaTeX between dollar signs, or plain text.
     uncertainty : Propagation, or dict of float, str or Quantity, optional
         Standard deviations by the name of the answer, such as "b.after.vx" or "energy_loss";
-        "b_after_vx" means the same. From a propagation, the outputs with such a name are taken, as
+        "b_after_vx" means the same. What was given, as the restitution of a forward impact, is no
+        answer and is refused. From a propagation, the outputs with such a name are taken, as
         SI if the model returned plain numbers. With an ``Interval`` among its inputs an answer gets
         its range, because a standard deviation would leave the interval out. The ``statements`` of
         the propagation, such as that cases have no answer, stand in the notes below the answers. A
@@ -226,9 +227,13 @@ def explain(
     need_found_again(impact)
     if isinstance(impact, Fit) and uncertainty is not None:
         raise no_uncertainty()
-    with callers_options():
-        deviations, ranges = ({}, {}) if uncertainty is None else _spread(uncertainty, impact)
-    page = Page(_system(units, given_texts(impact)), form == "markdown", deviations, ranges)
+    system = _system(units, given_texts(impact))
+    deviations: Mapping[str, float] = {}
+    ranges: _Ranges = {}
+    if uncertainty is not None:
+        with callers_options():
+            deviations, ranges = _spread(uncertainty, impact, _printed(impact, system))
+    page = Page(system, form == "markdown", deviations, ranges)
     if isinstance(impact, Fit):
         page.title("Fit to evidence, step by step")
         fit(page, impact)
@@ -574,17 +579,30 @@ def _is_mean(result: Any, name: str, kind: str, output: Output) -> bool:
     return not off > _OFF_CENTRE * std[0] or not varies(output, kind)
 
 
-def _spread(uncertainty: Any, result: Any) -> tuple[dict[str, float], _Ranges]:
-    """Standard deviations in SI by result, of a propagation or as they were given; or ranges."""
+def _printed(result: Any, system: System) -> list[str]:
+    """The names of the answers that stand on the page of this result."""
+    page = Page(system, False, {}, {})
+    rows = momentum_answers if isinstance(result, MomentumSolution) else impact_answers
+    for _ in rows(page, result):
+        pass
+    return page.answered
+
+
+def _spread(
+    uncertainty: Any, result: Any, printed: Sequence[str]
+) -> tuple[dict[str, float], _Ranges]:
+    """Standard deviations in SI by result, of a propagation or as they were given; or ranges. None
+    is of what is not printed.
+    """
     kinds = kinds_of_answers(result)
     if isinstance(uncertainty, Propagation):
         outputs, deviations, ranges = spread_of(result, uncertainty)
-        if not outputs:
+        if outputs.keys().isdisjoint(printed):
             given = (
                 name if output.unit is None else f"{name} [{output.unit}]"
                 for name, output in uncertainty.outputs.items()
             )
-            raise _unknown(", ".join(given), kinds)
+            raise _unknown(", ".join(given), printed)
         return deviations, ranges
     if not isinstance(uncertainty, Mapping):
         raise InputError(
@@ -593,10 +611,10 @@ def _spread(uncertainty: Any, result: Any) -> tuple[dict[str, float], _Ranges]:
             code="bad_option",
             argument="uncertainty",
         )
-    known = names_of_answers(result)
+    known = {name: of for name, of in names_of_answers(result).items() if of in printed}
     stray = [shown(name) for name in uncertainty if name not in known]
     if stray:
-        raise _unknown(", ".join(stray), kinds)
+        raise _unknown(", ".join(stray), printed)
     reader = ArgumentReader()
     found = {}
     for name, value in uncertainty.items():
@@ -611,10 +629,10 @@ def _spread(uncertainty: Any, result: Any) -> tuple[dict[str, float], _Ranges]:
     return found, {}
 
 
-def _unknown(given: str, kinds: Mapping[str, str]) -> InputError:
+def _unknown(given: str, printed: Sequence[str]) -> InputError:
     return InputError(
         f"uncertainty names no answer of this derivation: {given}; the answers are "
-        f"{', '.join(kinds)}",
+        f"{', '.join(printed)}",
         code="no_output",
         argument="uncertainty",
     )

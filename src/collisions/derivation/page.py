@@ -42,6 +42,7 @@ class Page:
     ) -> None:
         self.system, self.latex, self.deviations, self.ranges = system, latex, deviations, ranges
         self.parts: list[str] = []
+        self.answered: list[str] = []  # names of the answers written so far
         self.conversions: dict[tuple[str, str], str] = {}
         self._deeper = False
 
@@ -116,6 +117,7 @@ class Page:
         """An answer, rounded to its standard deviation where one is known for the attribute of this
         name; or with its range, and rounded to two figures of half its width.
         """
+        self.answered.append(name)
         if name not in self.ranges:
             printed = self.system.answer(value, kind, self.deviations.get(name))
             return printed + clock(name, value)
