@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 import collisions as col
-from collisions import reconstruct, uncertainty
+from collisions import reconstruct, reporting, uncertainty
 from collisions.derivation import explain
 from collisions.derivation.explain import IMPACT_ANSWERS
 from collisions.derivation.expressions import System
@@ -1178,6 +1178,33 @@ def test_an_interval_among_the_inputs_leaves_no_deviation(method, restitution, h
     low, high = spread["energy_loss"].interval()
     assert 24e3 <= low <= 25e3
     assert 96e3 <= high <= 100e3
+
+
+def test_a_direction_stands_on_the_turn_of_its_range():
+    """Struck from behind, 0.01 degrees to the other side of straight behind than the middle of the
+    range that goes on beyond 180 degrees; and the hour of the clock is beside it.
+    """
+    a = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, vx=20.0, x=-2.2, y=0.0, heading="0 deg")
+    b = col.Vehicle(mass=1200.0, yaw_inertia=2100.0, vx=8.0, x=2.0, y=0.0, heading="0 deg")
+
+    def struck(n):
+        options = {"point": (0.0, 0.0), "friction": 0.5, "on_failure": "nan"}
+        return col.eccentric(a, b, 0.1, normal=n, **options)
+
+    spread = uncertainty.propagate(
+        lambda n: {"b.pdof": struck(n).b.q.pdof},
+        {"n": uncertainty.Normal("0.5 deg", "3 deg")},
+        seed=1,
+        samples=2048,
+    )
+    impact = struck("-0.5 deg")
+    assert math.degrees(impact.b.pdof) == pytest.approx(-179.987, abs=1e-3)
+    text = explain(impact, form="text", units="metric", uncertainty=spread)
+    # As an angle with the other sign: -179.987 and a turn.
+    said = "180.01 deg (179.84 to 180.14 deg) (6 o'clock)"
+    assert answer(text, "B", "PDOF (0 from ahead, positive clockwise)") == said
+    page = reporting.report(impact, form="markdown", units="metric", uncertainty=spread)
+    assert "180.01° (179.84 to 180.14°) (6 o'clock)" in page
 
 
 def test_a_deviation_that_is_rounding_is_none():

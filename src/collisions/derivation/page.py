@@ -126,9 +126,14 @@ class Page:
             bound = range_in_words(low, high, lambda end: self.system.answer(end, kind), "%")
             return f"{self.system.answer(value, kind)} ({bound})"
         half = 0.5 * (high - low)
-        printed = self.system.span(value, value, kind, half)
+        beside = value
+        if kind == "angle" and math.isfinite(high + low):
+            # On the turn of its range, which may go on beyond half a turn.
+            beside += math.tau * round((low + half - value) / math.tau)
+        printed = self.system.span(beside, beside, kind, half)
         ends = (self.system.span(end, end, kind, half) for end in (low, high))
-        return f"{printed} ({next(ends).removesuffix(self.system.unit(kind))} to {next(ends)})"
+        ranged = f"({next(ends).removesuffix(self.system.unit(kind))} to {next(ends)})"
+        return f"{printed} {ranged}{clock(name, value)}"
 
     def equation(self, caption: str, left: Symbol, right: Expression) -> None:
         """Write symbol = formula = numbers = value: the result's own number, which the formula must
