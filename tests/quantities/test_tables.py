@@ -742,3 +742,34 @@ def test_what_is_said_beside_the_numbers_of_an_impact_found_backwards_stands_in_
     assert "Not the only answer: 3 impacts fit what was known." in text
     assert len(found[1].statements) == 1
     assert "Found as an instant: of delta-V that leaves out about" in text
+
+
+def test_the_help_of_summary_says_which_summaries_have_radians_in_si():
+    """A course of a study, a posterior, a fit and an impact, in every system of units."""
+
+    def model(course):
+        moved = col.Vehicle.from_speed(mass=1000.0, speed=10.0, course=course)
+        return {"course": moved.q.course}
+
+    stated = {"course": Normal("30 deg", "2 deg")}
+    spread = propagate(model, stated, samples=64, seed=1)
+    found = reconstruct.posterior(model, stated, {"course": ("30 deg", "2 deg")}, seed=1)
+    fitted = reconstruct.fit(model, stated, {"course": ("30 deg", "2 deg")})
+    told = re.sub(r"\s+", " ", type(spread).summary.__doc__)
+    assert (
+        "but for SI in the summary of a ``Propagation``, a ``Posterior`` or an ``Output``" in told
+    )
+    for one, radians in (
+        (spread, True),
+        (spread["course"], True),
+        (found, True),
+        (found["course"], True),
+        (fitted, False),
+        (fitted["course"], False),
+        (col.Vehicle(mass=1000.0, vx=1.0, heading=0.5), False),
+    ):
+        # What was stated stays as it was given, in degrees.
+        assert bool(re.search(r"\brad\b", str(one.summary("si")))) is radians
+        for units in ("metric", "us"):
+            assert "°" in str(one.summary(units))
+            assert not re.search(r"\brad\b", str(one.summary(units)))

@@ -213,7 +213,9 @@ class Summarized:
         ----------
         units : {"si", "metric", "us"}, optional
             By default those that the inputs were given in, if they agree; otherwise SI. Angles are
-            in degrees.
+            in degrees in each of them, but for SI in the summary of a ``Propagation``, a
+            ``Posterior`` or an ``Output`` of these, which has radians for all but what was stated
+            of inputs.
 
         Returns
         -------
