@@ -1639,6 +1639,10 @@ def test_a_record_has_no_name_twice_and_none_that_nothing_reads(old, new, said):
     [
         ({"version": None}, "its version is None"),
         ({"version": {"a": 1}}, "its version is {'a': 1}"),
+        *(
+            ({"version": text}, f"its version is {text!r}")
+            for text in ("", "0.2.0x", "x", "0.2.", "0.2.0 ", "0.2.0\n", "0..2", "\u0660.2")
+        ),
         ({"options": {"checked": True}}, "its options are none that report takes"),
         ({"options": "form"}, "its options are none that report takes"),
         ({"uncertainty": {"checked": True}}, "it has uncertainty.checked, which no record of"),
@@ -1659,7 +1663,8 @@ def test_the_reason_of_a_choice_may_be_worded_otherwise_by_another_version(impac
     worded = tampered(page, lambda r: r["impact"]["results"]["choice"].update(reason="Another."))
     with pytest.raises(col.InputError, match=r"its inputs do not give its choice\.reason"):
         replay(worded)
-    assert replay(tampered(worded, lambda r: r.update(version="0.1.0"))) == impact
+    for other in ("0.1.0", "1.0", "0.3.0rc1", "0.3.0.dev12+g1a2b3c4.d20260101", "1.0.post1"):
+        assert replay(tampered(worded, lambda r, other=other: r.update(version=other))) == impact
     with pytest.raises(col.InputError, match=r"its inputs do not give its choice\.errors"):
         replay(
             tampered(

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 import sys
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -75,6 +76,10 @@ _READ_AGAIN = 2e-9
 # Results of another machine may differ by its rounding, relative or in SI; a page does not show
 # that many digits.
 _OTHER_MACHINE = 1e-6
+# Those of releases, and of what comes before and after them: "0.2.0", "1.0rc1", "0.3.0.dev2+g1a2b".
+_VERSION = re.compile(
+    r"[0-9]+(\.[0-9]+)*((a|b|rc)[0-9]+)?(\.post[0-9]+)?(\.dev[0-9]+)?(\+[a-z0-9]+(\.[a-z0-9]+)*)?"
+)
 # What a record has of the page, beside its results.
 _OF_PAGE = ("format", "version", "options")
 _OF_UNCERTAINTY = ("method", "samples", "seed")
@@ -238,7 +243,7 @@ def replay(text: str) -> Impact | MomentumSolution | Run | list[Impact | Momentu
     from .. import __version__
 
     found = _whole(text)
-    if not isinstance(version := found.get("version"), str):
+    if not (isinstance(version := found.get("version"), str) and _VERSION.fullmatch(version)):
         raise _bad(f"its version is {rendered(version)}")
     # Another version may word a sentence differently, and have other names.
     as_here = version == __version__
