@@ -380,7 +380,7 @@ def test_dimensions_beyond_what_numpy_holds_everywhere():
             **PLACE,
         ),
         "distance": lambda x: (col.travel.speed(x, drag=0.7), col.travel.time(x, drag=0.7)),
-        "stiffness_a": lambda x: col.reconstruct.crush_energy(1.0, [0.1, 0.2], x, 1e6),
+        "stiffness_a": lambda x: col.reconstruct.crush_energy(1.0, [0.1, 0.2], 2e3 * x, 1e6),
         "duration": lambda x: col.left_out(solve(20.0), duration=x / 200.0),
         "closing_speed": lambda x: col.reference.restitution(x / 10.0),
     }

@@ -2,6 +2,7 @@
 records and every refusal.
 """
 
+import contextlib
 import json
 import math
 import pickle
@@ -312,6 +313,26 @@ def test_a_bare_width_of_crush_is_suspected_as_that_of_a_profile_is(width, worst
     other = car.replace(x=2.0, vx=0.0)
     found = suspected(lambda: col.time_resolved(car, other, 0.1, **STRAIGHT, **of_b))
     assert [one.fields["argument"] for one in found] == ([] if worst is None else ["crush_b[2]"])
+
+
+@pytest.mark.parametrize("vehicle", ["a", "b"])
+def test_bare_stiffness_of_a_table_in_pounds_and_inches_is_suspected(vehicle):
+    """As that of ``crush_energy`` is."""
+    car = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, vx=10.0, x=-2.0, y=0.0)
+    other = car.replace(x=2.0, vx=0.0)
+    crush = {"crush_a": ("60 kN/m", "700 kN/m**2", 1.5)}
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        crush[f"crush_{vehicle}"] = (250, 50.0, "1.5 m")
+        # A car as soft as that does not come to a stop within its contact.
+        with contextlib.suppress(col.NoSolutionError):
+            col.time_resolved(car, other, 0.1, **STRAIGHT, **crush)
+    assert [str(one.message) for one in caught if one.message.code == "suspect_units"] == [
+        f"crush_{vehicle}[0] = 250 is read as N/m, softer than any car; if another unit was "
+        "meant, write '250 lbf/in' or '250 N/cm'",
+        f"crush_{vehicle}[1] = 50 is read as N/m**2, softer than any car; if another unit was "
+        "meant, write '50 lbf/in**2' or '50 N/cm**2'",
+    ]
 
 
 # Fixed geometry without tyres: energetic restitution
@@ -1188,7 +1209,7 @@ def test_pictures():
     [
         ({"duration": None}, "one_stiffness", "give one of duration="),
         ({"stiffness": 1e6}, "one_stiffness", "got duration and stiffness"),
-        ({"crush_a": (1.0, 1.0, 1.0)}, "one_stiffness", "duration and crush_a"),
+        ({"crush_a": (6e4, 7e5, 1.0)}, "one_stiffness", "duration and crush_a"),
         ({"duration": 0.0}, "not_positive", "must be > 0"),
         ({"duration": -0.1}, "negative_duration", "touching to parting"),
         ({"duration": math.inf}, "not_finite", "duration must be finite"),
@@ -1197,7 +1218,7 @@ def test_pictures():
         ({"duration": None, "crush_a": 6e4}, "bad_shape", r"crush_a must be \(A, B, width\)"),
         ({"duration": None, "crush_a": (6e4, 0.0, 1.5)}, "not_positive", r"crush_a\[1\]"),
         ({"duration": None, "crush_b": (-1.0, 1e5, 1.5)}, "negative_size", r"crush_b\[0\]"),
-        ({"duration": None, "crush_b": (1.0, 1e5, math.nan)}, "not_finite", r"crush_b\[2\]"),
+        ({"duration": None, "crush_b": (6e4, 1e5, math.nan)}, "not_finite", r"crush_b\[2\]"),
         ({"drag": -0.1}, "negative_drag", "drag"),
         ({"drag": math.nan}, "not_finite", "drag"),
         ({"drag": "wet"}, "bad_units", "drag"),

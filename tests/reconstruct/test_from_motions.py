@@ -9,6 +9,7 @@ import json
 import math
 import pickle
 import random
+import re
 import warnings
 from dataclasses import replace
 from pathlib import Path
@@ -1199,6 +1200,40 @@ def test_crush_with_units_is_beyond_suspicion():
     # the definition of the pound.
     whole = 60 * (200 * 7.5 + 65 * 175 / 6 + 200**2 / 130)
     assert us == pytest.approx(whole * 0.45359237 * 9.80665 * 0.0254, rel=1e-13)
+
+
+@pytest.mark.parametrize(
+    ("a", "b", "said"),
+    [
+        (250, 50, ["stiffness_a = 250", "stiffness_b = 50"]),
+        (438.0, "34.5 N/cm**2", ["stiffness_a = 438"]),
+        (pint.Quantity(250, "lbf/in"), 50.0, ["stiffness_b = 50"]),
+        (np.array([0.0, 4e4, 300.0, 250.0]), 5e5, ["stiffness_a = 250"]),
+        (0.0, "50 lbf/in**2", []),
+        (0.0, 1e5, []),
+        ("250 lbf/in", "50 lbf/in**2", []),
+        ("250 N/m", "50 N/m**2", []),
+    ],
+)
+def test_stiffness_as_tables_in_pounds_and_inches_print_it_is_suspected(a, b, said):
+    """Read as N/m the front of a car would hold no more than a hand, and its damage would say next
+    to nothing.
+    """
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        reconstruct.crush_energy("60 in", ["12 in", "12 in"], a, b)
+    assert {one.category for one in caught} <= {col.SuspectUnitsWarning}
+    assert [str(one.message).partition(" is read as N/m")[0] for one in caught] == said
+    # What it says to write can be written, and is beyond suspicion.
+    for one in caught:
+        written = re.findall(r"'(.*?)'", str(one.message))
+        assert len(written) == 2
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            for text in written:
+                given = {"stiffness_a": "40 kN/m", "stiffness_b": "600 kN/m**2"}
+                given[one.message.fields["argument"]] = text
+                assert reconstruct.crush_energy("60 in", ["12 in", "12 in"], **given) > 0.0
 
 
 def test_two_springs_in_series_share_the_energy_as_their_inverse_stiffness():

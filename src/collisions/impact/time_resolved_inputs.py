@@ -18,7 +18,7 @@ from ..kernels.status import Answer, Passed, Status, WithTyres
 from ..messages.errors import InputError, MissingInputError, NoImpactError, ShapeError
 from ..quantities.attributes import read_only
 from ..quantities.directions import from_radians
-from ..quantities.reading import ArgumentReader, is_whole, warn_if_large
+from ..quantities.reading import ArgumentReader, is_whole, warn_if_large, warn_if_small
 from ..quantities.tables import said
 from ..quantities.units import shown
 from ..vehicle.drag import GRAVITY, read_drag, read_duration
@@ -54,6 +54,10 @@ _STEPS = 100
 _SIZES = {"wheelbase": 2.7, "track": 1.5}
 # In metres: no damage is so wide, so a bare number beyond is in another unit.
 WIDEST_DAMAGE = 10.0
+# A and B in N/m and N/m**2: any car has about ten times as much, and the numbers of tables in
+# pounds and inches, or in N/cm, are below.
+_SOFTEST = 1e3, 1e4
+_TABLES = ("lbf/in", "N/cm"), ("lbf/in**2", "N/cm**2")
 # Cases of a block; fewer than so many are faster one by one.
 _BLOCK, _FEW = 1024, 128
 _STIFFNESS = (
@@ -232,8 +236,17 @@ def _read_crush(reader: ArgumentReader, value: Any, name: str) -> Any:
             zip(value, CRUSH_UNITS, DOMAINS[name], strict=True)
         )
     )
+    warn_if_soft(value[:2], found[:2], (f"{name}[0]", f"{name}[1]"))
     warn_if_large(value[2], found[2], WIDEST_DAMAGE, f"{name}[2]", "metres of width", "cm", "in")
     return found
+
+
+def warn_if_soft(given: Sequence[Any], read: Sequence[Any], names: Sequence[str]) -> None:
+    """Warns of crush stiffness coefficients A and B without a unit, if no car has as small ones."""
+    for value, number, limit, name, unit, others in zip(
+        given, read, _SOFTEST, names, CRUSH_UNITS, _TABLES, strict=False
+    ):
+        warn_if_small(value, number, limit, name, f"{unit}, softer than any car", *others)
 
 
 def crushes(inputs: Inputs) -> dict[str, tuple[Any, ...]]:

@@ -290,6 +290,32 @@ def warn_if_large(
         )
 
 
+def warn_if_small(
+    given: Any, read: Any, limit: float, argument: str, meaning: str, *units: str
+) -> None:
+    """Warns that a number above 0 without a unit is so small that it may have been meant in one of
+    these units.
+    """
+    if has_unit(given):
+        return
+    small = np.greater(read, 0.0) & np.less(read, limit)
+    if np.any(small):
+        least = float(np.min(read, where=small, initial=limit))
+        spelled = " or ".join(f"'{least:g} {unit}'" for unit in units)
+        warn(
+            SuspectUnitsWarning(
+                f"{argument} = {least:g} is read as {meaning}; if another unit was meant, write "
+                f"{spelled}",
+                code="suspect_units",
+                argument=argument,
+                value=least,
+            ),
+            small,
+            f"{argument} is so small, read as {meaning}, that {' or '.join(units)} may have been "
+            "meant; then write the unit with the number",
+        )
+
+
 def _read(value: Any, unit: str, argument: str) -> tuple[Any, str]:
     """The value in the unit, and the text it was given as if it had a unit; of an array the text of
     one such unit.

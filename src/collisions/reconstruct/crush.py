@@ -11,7 +11,7 @@ from typing import Any, cast
 import numpy as np
 
 from ..impact.run import error_of, warn_of_refusals
-from ..impact.time_resolved_inputs import WIDEST_DAMAGE
+from ..impact.time_resolved_inputs import WIDEST_DAMAGE, warn_if_soft
 from ..kernels.elementwise import POSITIVE, UNIT_INTERVAL
 from ..kernels.status import Status
 from ..messages.errors import OutOfRangeWarning, ShapeError
@@ -92,7 +92,8 @@ def crush_energy(
     OutOfRangeWarning
         The angle is beyond 45 degrees, where the correction exceeds 2 and the model is not used.
     SuspectUnitsWarning
-        A depth above 2 m or a total width above 10 m, given without a unit.
+        A depth above 2 m, a total width above 10 m, an A above 0 and below 1 kN/m or a B below 10
+        kN/m**2, given without a unit: no car comes near, but a US table prints 250 for 250 lbf/in.
 
     Examples
     --------
@@ -142,6 +143,7 @@ def crush_energy(
     _warn_if_large(depths, crush, _DEEPEST, "depths", np.fmax)
     width = whole if isinstance(whole, list) else [whole]
     _warn_if_large(widths, width, WIDEST_DAMAGE, "widths", np.add)
+    warn_if_soft((stiffness_a, stiffness_b), (a, b), ("stiffness_a", "stiffness_b"))
     cosine = angle.beside((*amounts.values(), b)).direction[0]
     oblique = np.less(cosine, math.cos(_MOST_OBLIQUE) * (1.0 - 1e-12)) & np.greater(
         cosine, _RIGHT_ANGLE
