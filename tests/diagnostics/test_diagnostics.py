@@ -559,6 +559,33 @@ def test_the_lever_of_the_force_that_the_damage_shows():
     assert of("yaw_against_lever", pinned, damage_pdof_a="-110 deg") != []
 
 
+@pytest.mark.parametrize("friction", [0.0, 0.4])
+def test_a_crush_energy_may_count_what_restitution_gives_back_or_not(friction):
+    """Fitted to the speeds of barrier tests, coefficients give the energy at maximum crush, which
+    is that lost and what comes back of it: e^2 of the work along the normal.
+    """
+    e = 0.6
+    impact = square(restitution=e, friction=friction, a={"vy": 8.0})
+    returned = e**2 * impact.energy_absorbed
+    most = impact.energy_loss + returned
+    assert most > 1.3 * impact.energy_loss
+    tight = {"momentum_energy": 1e-9}
+    for right in (impact.energy_loss, most):
+        assert of("momentum_energy", impact, crush_energy=right, limits=tight) == []
+    for off, of_energy in ((0.6, most), (-0.6, impact.energy_loss)):
+        (finding,) = of("momentum_energy", impact, crush_energy=(1.0 + off) * of_energy)
+        assert finding.measured == pytest.approx(abs(off), rel=1e-9)
+        for energy, what in (
+            (most, "absorbed by maximum crush and by sliding"),
+            (impact.energy_loss, "lost"),
+        ):
+            assert f"{energy / 1000.0:.4g} kJ to be {what}" in finding.sentence
+    # Where nothing comes back both are one, and the sentence says one.
+    plastic = square(restitution=0.0)
+    (finding,) = of("momentum_energy", plastic, crush_energy=2.0 * plastic.energy_loss)
+    assert "absorbed" not in finding.sentence
+
+
 def test_damage_against_the_answer():
     """Energy as a share of that lost, directions by the short way round, delta-V as a share; none
     without evidence.
@@ -568,7 +595,11 @@ def test_damage_against_the_answer():
     assert finding.measured == pytest.approx(0.75, rel=1e-12)
     assert of("momentum_energy", impact, crush_energy=impact.energy_loss) == []
     elastic = square(restitution=1.0, friction=0.0, a={"vy": 8.0})
-    assert of("momentum_energy", elastic, crush_energy=1.0)[0].measured == math.inf
+    # All of it comes back, and coefficients may count it or not.
+    assert of("momentum_energy", elastic, crush_energy=elastic.energy_absorbed) == []
+    assert of("momentum_energy", elastic, crush_energy=0.4 * elastic.energy_absorbed)[
+        0
+    ].measured == pytest.approx(0.6, rel=1e-12)
     pdof = math.degrees(impact.a.pdof)
     for off, seen in ((11.0, pdof + 11.0), (11.0, pdof + 349.0), (180.0, pdof + 180.0)):
         (finding,) = of("pdof_off_damage", impact, damage_pdof_a=f"{seen!r} deg")
@@ -1079,7 +1110,11 @@ def towards(heading):
             lambda: square(b={"mass": CAR["mass"]}),
             {"damage_delta_v_a": 9.9, "damage_delta_v_b": 8.1},
         ),
-        ("momentum_energy", lambda: square(), {"crush_energy": 1.5 * square().energy_loss}),
+        (
+            "momentum_energy",
+            lambda: square(restitution=0.0),
+            {"crush_energy": 1.5 * square(restitution=0.0).energy_loss},
+        ),
         ("suspect_angle", lambda: square(a={"heading": "400 grad"}), {}),
     ],
 )

@@ -1202,6 +1202,32 @@ def test_crush_with_units_is_beyond_suspicion():
     assert us == pytest.approx(whole * 0.45359237 * 9.80665 * 0.0254, rel=1e-13)
 
 
+def test_speeds_of_maximum_crush_or_what_remains_lead_from_a_crush_energy_to_the_speeds():
+    """In line through both centres and without friction, 1 - e^2 of it remains, and the speeds
+    follow from the energies by hand: E = m v^2 / 2 of the reduced mass.
+    """
+    e, energies, masses = 0.3, (20e3, 30e3), (1500.0, 1200.0)
+    reduced = masses[0] * masses[1] / sum(masses)
+    closing = math.sqrt(2.0 * sum(energies) / reduced)
+    a, b = (
+        col.Vehicle(mass=mass, yaw_inertia=2000.0, x=x, y=0.0)
+        for mass, x in zip(masses, (-2.0, 2.0), strict=True)
+    )
+    contact = {"normal": 0.0, "point": (0.0, 0.0), "restitution": e, "friction": 0.0}
+    courses = {"course_a": 0.0, "course_b": 0.0, "speed_b": 5.0}
+    crushes = (
+        math.sqrt(2.0 * energy / mass) for energy, mass in zip(energies, masses, strict=True)
+    )
+    by_crush = dict(zip(("max_crush_speed_a", "max_crush_speed_b"), crushes, strict=True))
+    for known in (by_crush, {"energy_loss": (1.0 - e**2) * sum(energies)}):
+        (found,) = reconstruct.speeds(a, b, **courses, **contact, **known)
+        assert found.a.before.speed == pytest.approx(5.0 + closing, rel=1e-9)
+    # And delta-V from damage is 1/(1 + e) of its delta-V.
+    up_to_common = reconstruct.crush_delta_v(sum(energies), *masses)
+    for side, part in zip((found.a, found.b), up_to_common, strict=True):
+        assert side.delta_v == pytest.approx((1.0 + e) * part, rel=1e-9)
+
+
 @pytest.mark.parametrize(
     ("a", "b", "said"),
     [

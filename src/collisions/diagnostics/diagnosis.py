@@ -99,8 +99,11 @@ def diagnose(
         deg"}``; inf switches off a finding that appears above its limit, 0 one that appears below
         it.
     crush_energy : float, str or Quantity [J], optional
-        Energy absorbed by the damage of both vehicles together, as from
-        ``reconstruct.crush_energy``, for ``momentum_energy``.
+        Energy of the damage of both vehicles together, as from ``reconstruct.crush_energy``, for
+        ``momentum_energy``. Whether it is the energy absorbed at maximum crush or what remains of
+        it after restitution depends on the stiffness coefficients, so of an Impact it is compared
+        with the nearer of ``energy_loss`` and ``energy_absorbed`` plus ``energy_loss_tangential``;
+        of a MomentumSolution with the energy lost.
     damage_pdof_a, damage_pdof_b : angle [rad], optional
         Direction of force shown by the damage of a vehicle, 0 from straight ahead, positive
         clockwise, for ``pdof_off_damage`` and ``yaw_against_lever``. The vehicle then needs a

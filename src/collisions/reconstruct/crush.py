@@ -277,7 +277,12 @@ def crush_delta_v(
     -----
     CRASH3 technical manual; EDCRASH manual, chapter 4. The method leaves out the speed at which the
     vehicles slid past each other and any change in the direction of the force.
-    ``reconstruct.speeds`` with ``energy_loss`` does not.
+    ``reconstruct.speeds`` does not, with ``max_crush_speed_a`` and ``max_crush_speed_b``, each
+    sqrt(2 energy / mass) by the energy of that vehicle at maximum crush. Its ``energy_loss`` is
+    what remains of the energy of both after restitution e: (1 - e^2) energy where nothing slides.
+    Where they slide, friction takes energy too: give the crush energy to ``posterior`` as a reading
+    of ``energy_absorbed``, or of that and ``energy_loss_tangential`` together if the energy counts
+    the work of the whole force.
 
     Examples
     --------
