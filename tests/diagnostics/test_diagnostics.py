@@ -863,13 +863,32 @@ def test_a_contact_followed_in_time_has_its_own_duration_and_drag():
     assert of("suspect_drag", fine, drag="700 %") == []
 
 
+def test_a_unit_that_was_given_is_not_asked_for():
+    """A person that a car strikes is no input error, and "170 lb" cannot be misread."""
+    car = col.Vehicle(mass="3500 lb", yaw_inertia="1950 slug*ft**2", vx="110 mph", x="-7 ft", y=0)
+    turning = {"yaw_inertia": "1 slug*ft**2", "yaw_rate": "1200 deg/s"}
+    person = col.Vehicle(mass="170 lb", **turning, x="1 ft", y=0)
+    impact = col.eccentric(car, person, 0.1, normal=0.0, point=(0.0, 0.0), friction=0.5)
+    said = {finding.code: finding.sentence for finding in diagnose(impact)}
+    doubted = {"suspect_mass", "suspect_speed", "suspect_yaw_rate", "suspect_inertia_low"}
+    assert doubted <= set(said)
+    assert not [code for code in doubted if "unit" in said[code] or "meant" in said[code]]
+    assert said["suspect_inertia_low"].endswith("by its yaw inertia, less than any car")
+    # Of a number it is the unit that may be wrong.
+    bare = col.eccentric(
+        car, person.replace(yaw_inertia=1.4), 0.1, normal=0.0, point=(0.0, 0.0), friction=0.5
+    )
+    (one,) = (finding for finding in diagnose(bare) if finding.code == "suspect_inertia_low")
+    assert one.sentence.endswith("; check its unit")
+
+
 def test_a_mass_with_a_unit_is_not_asked_for_another():
     """A motorcycle weighs less than any car, and its unit was given."""
     car = col.Vehicle(mass=1500, vx="30 mph", x=0, y=0, heading=0)
     for mass, said in (
-        ("320 lb", "has a mass of 320.0 lb; check its unit"),
+        ("320 lb", "has a mass of 320.0 lb, less than any car"),
         (145.0, "has a mass of 145 kg; were tonnes or slugs meant?"),
-        ("300000 lb", "has a mass of 300000 lb; check its unit"),
+        ("300000 lb", "has a mass of 300000 lb, more than any road vehicle"),
     ):
         other = col.Vehicle(mass=mass, vx="10 mph", x=2, y=0, heading=0)
         found = silent(lambda other=other: col.linear_central(car, other, 0.1))
@@ -892,7 +911,7 @@ def test_what_was_given_with_a_unit_is_not_asked_for_another():
         )
     )  # fmt: skip
     found = {one.code: one.sentence for one in diagnose(fast, units="us")}
-    assert found["suspect_speed"] == "vehicle B goes at 200.0 mph before; check its unit"
+    assert found["suspect_speed"] == "vehicle B goes at 200.0 mph before, which is unusually fast"
     assert found["suspect_angle"] == "vehicle A has a heading of 720.0 degrees, 2 turns; check it"
     turned = silent(
         lambda: reconstruct.momentum(
@@ -2086,7 +2105,7 @@ def test_a_speed_that_was_found_is_no_input():
     assert other.sentence == "vehicle A goes at 130 m/s before; were km/h or mph meant?"
     texts = reconstruct.central(1500.0, 1200.0, va="110 mph", vb="0 mph", restitution=0.1)
     assert of("suspect_speed", texts)[0].sentence == (
-        "vehicle A goes at 110.0 mph before; check its unit"
+        "vehicle A goes at 110.0 mph before, which is unusually fast"
     )
 
 
@@ -2105,7 +2124,7 @@ def test_a_yaw_rate_that_was_found_is_no_input():
     assert finding.sentence.startswith("vehicle A was found to turn at 2292 degrees/s")
     texts = square(a={"yaw_rate": "2000 deg/s"})
     assert of("suspect_yaw_rate", texts)[0].sentence == (
-        "vehicle A turns at 2000 degrees/s before; check its unit"
+        "vehicle A turns at 2000 degrees/s before, which is unusually fast"
     )
 
 

@@ -29,13 +29,16 @@ _WHOLE = 1e-12  # rad: the rounding of an angle from its unit vector
 )
 def suspect_mass(case: Case) -> Iterator[Measured]:
     for label, vehicle in case.vehicles.items():
-        yield Measured(vehicle.mass, _of_mass(case, vehicle, "were tonnes or slugs meant?"), label)
+        sentence = _of_mass(case, vehicle, "less than any car", "were tonnes or slugs meant?")
+        yield Measured(vehicle.mass, sentence, label)
 
 
-def _of_mass(case: Case, vehicle: VehicleFigures, doubt: str) -> str:
-    """What a mass is, with a doubt of how it was given where it had no unit."""
+def _of_mass(case: Case, vehicle: VehicleFigures, unusual: str, doubt: str) -> str:
+    """What a mass is, with a doubt of how it was given where it had no unit; a unit that was given
+    is not in doubt.
+    """
     if vehicle.mass_has_unit:
-        return f"{vehicle.who} has a mass of {case.text(vehicle.mass, 'mass')}; check its unit"
+        return f"{vehicle.who} has a mass of {case.text(vehicle.mass, 'mass')}, {unusual}"
     return f"{vehicle.who} has a mass of {vehicle.mass:.6g} kg; {doubt}"
 
 
@@ -49,7 +52,8 @@ def suspect_heavy(case: Case) -> Iterator[Measured]:
     for label, vehicle in case.vehicles.items():
         if not math.isinf(vehicle.mass):
             doubt = f"were grams meant{immovable}?"
-            yield Measured(vehicle.mass, _of_mass(case, vehicle, doubt), label)
+            sentence = _of_mass(case, vehicle, "more than any road vehicle", doubt)
+            yield Measured(vehicle.mass, sentence, label)
 
 
 @finding("speed before", above(44.0, "m/s"), "set here: 158 km/h; km/h or mph as m/s")
@@ -61,7 +65,7 @@ def suspect_speed(case: Case) -> Iterator[Measured]:
         if case.was_found(label, "speed"):
             sentence = f"{who} was found to go at {fast} before; check what was given"
         elif vehicle.speed_has_unit:
-            sentence = f"{who} goes at {fast} before; check its unit"
+            sentence = f"{who} goes at {fast} before, which is unusually fast"
         yield Measured(speed, sentence, label)
 
 
@@ -78,25 +82,26 @@ def suspect_yaw_rate(case: ImpactCase) -> Iterator[Measured]:
         if case.was_found(label, "yaw_rate"):
             sentence = f"{who} was found to turn at {quick} before; check what was given"
         elif "yaw_rate" in (case.stated(label).given or {}):
-            sentence = f"{who} turns at {quick} before; check its unit"
+            sentence = f"{who} turns at {quick} before, which is unusually fast"
         yield Measured(abs(rate), sentence, label)
 
 
-def _radii_of_gyration(case: ImpactCase) -> Iterator[Measured]:
+def _radii_of_gyration(case: ImpactCase, unusual: str) -> Iterator[Measured]:
     for label, who, side in case.sides:
         mass, inertia = side.before.mass, side.before.yaw_inertia
         if inertia is not None and not math.isinf(inertia) and not math.isinf(mass):
             radius = math.sqrt(inertia / mass)
+            stated = {"mass", "yaw_inertia"} <= set(case.stated(label).given or {})
             sentence = (
                 f"{who} has a radius of gyration of {case.text(radius, 'length')} by its yaw "
-                "inertia; check its unit"
+                f"inertia{f', {unusual}' if stated else '; check its unit'}"
             )
             yield Measured(radius, sentence, label)
 
 
 @finding("radius of gyration", below(0.3, "m"), "set here: no vehicle is as compact; t·m² as kg·m²")
 def suspect_inertia_low(case: ImpactCase) -> Iterator[Measured]:
-    return _radii_of_gyration(case)
+    return _radii_of_gyration(case, "less than any car")
 
 
 @finding(
@@ -105,7 +110,7 @@ def suspect_inertia_low(case: ImpactCase) -> Iterator[Measured]:
     "set here: that of a rectangle 17 m long; lb·ft² as kg·m²",
 )
 def suspect_inertia_high(case: ImpactCase) -> Iterator[Measured]:
-    return _radii_of_gyration(case)
+    return _radii_of_gyration(case, "more than any car")
 
 
 @finding(
