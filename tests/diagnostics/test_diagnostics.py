@@ -848,11 +848,11 @@ def test_speeds_backwards_and_units_of_momentum():
 
 
 def test_a_contact_followed_in_time_has_its_own_duration_and_drag():
-    """Of bare stiffnesses of a US table it lasts seconds; 7 m/s² is no drag."""
+    """With a stiffness in N/m that was meant in kN/m it lasts seconds; 7 m/s² is no drag."""
     a = col.Vehicle(mass=1600.0, yaw_inertia=2650.0, x=-2.1, y=0.0, heading=0.0, vx=13.4)
     b = col.Vehicle(mass=1300.0, yaw_inertia=1950.0, x=2.1, y=0.15, heading=0.0)
     given = {"normal": 0.0, "point": (0.0, 0.06), "friction": 0.5, "geometry": "fixed"}
-    slow = col.time_resolved(a, b, 0.1, **given, stiffness=800.0)
+    slow = col.time_resolved(a, b, 0.1, **given, stiffness="800 N/m")
     (found,) = of("suspect_duration", slow)
     assert found.measured == pytest.approx(slow.pulse.duration / 0.147)
     assert f"last {slow.pulse.duration:.6g} s" in found.sentence

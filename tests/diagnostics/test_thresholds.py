@@ -670,12 +670,12 @@ def crushed(depths=(0.2, 0.3), widths=1.5, stiffness=("35 kN/m", "450 kN/m**2"),
     return reconstruct.crush_energy(widths, depths, *stiffness, **more)
 
 
-def into_a_wall(*stiffness):
-    """A contact followed in time, by the A and B of the front of A."""
+def into_a_wall(**stiffness):
+    """A contact followed in time."""
     car = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, vx=10.0, x=-2.0, y=0.0)
     wall = col.Vehicle.barrier(x=0.0, y=0.0)
     contact = {"normal": 0.0, "point": (0.0, 0.0), "friction": 0.5, "geometry": "fixed"}
-    return col.time_resolved(car, wall, 0.1, crush_a=(*stiffness, 1.5), drag=0.0, **contact)
+    return col.time_resolved(car, wall, 0.1, **stiffness, drag=0.0, **contact)
 
 
 def two_marks(**more):
@@ -967,9 +967,11 @@ WARNINGS = [
     Warned("crush stiffness B", 1e4, UNITS, "suspect_units",
         lambda x: crushed(stiffness=("35 kN/m", x)), below=True),
     Warned("crush stiffness A of a contact", 1e3, UNITS, "suspect_units",
-        lambda x: into_a_wall(x, "700 kN/m**2"), below=True),
+        lambda x: into_a_wall(crush_a=(x, "700 kN/m**2", 1.5)), below=True),
     Warned("crush stiffness B of a contact", 1e4, UNITS, "suspect_units",
-        lambda x: into_a_wall(0.0, x), below=True),
+        lambda x: into_a_wall(crush_a=(0.0, x, 1.5)), below=True),
+    Warned("stiffness of a contact", 1e4, UNITS, "suspect_units",
+        lambda x: into_a_wall(stiffness=x), below=True),
     Warned("force angle", math.radians(45.0), RANGE, "force_angle",
         lambda x: crushed(force_angle=x)),
     Warned("force angle the other way", math.radians(45.0), RANGE, "force_angle",

@@ -1350,7 +1350,7 @@ def test_refused_contacts():
         t_bone(a=col.Vehicle(**A | {"vx": 1e200}), geometry="fixed")
     assert caught.value.code == "out_of_range"
     with pytest.raises(col.InputError) as caught:
-        t_bone(duration=None, stiffness=1e-155, geometry="first_contact")
+        t_bone(duration=None, stiffness="1e-155 N/m", geometry="first_contact")
     assert caught.value.code == "out_of_range"
     # The crush at the end, which is negative by then, is below all numbers.
     with pytest.raises(col.InputError) as caught:

@@ -501,9 +501,9 @@ def time_resolved(
     Warns
     -----
     SuspectUnitsWarning
-        A duration above 1 s, a width of crush above 10 m, a stiffness A above 0 and below 1 kN/m or
-        B below 10 kN/m**2, a drag above 1.5, or a wheelbase or track larger than that of any
-        vehicle, given without a unit.
+        A duration above 1 s, a stiffness below 10 kN/m, a width of crush above 10 m, an A above 0
+        and below 1 kN/m or B below 10 kN/m**2, a drag above 1.5, or a wheelbase or track larger
+        than that of any vehicle, given without a unit.
 
     Notes
     -----

@@ -57,6 +57,9 @@ WIDEST_DAMAGE = 10.0
 # A and B in N/m and N/m**2: any car has about ten times as much, and the numbers of tables in
 # pounds and inches, or in N/cm, are below.
 _SOFTEST = 1e3, 1e4
+# In N/m, of both vehicles together: cars have above ten times as much, and numbers meant in kN/m or
+# lbf/in are below.
+_SOFTEST_SPRING = 1e4
 _TABLES = ("lbf/in", "N/cm"), ("lbf/in**2", "N/cm**2")
 # Cases of a block; fewer than so many are faster one by one.
 _BLOCK, _FEW = 1024, 128
@@ -217,6 +220,9 @@ def read_times(reader: ArgumentReader, extra: dict[str, Any]) -> dict[str, Any]:
             found[name] = reader.number(
                 value, {"stiffness": "N/m"}.get(name, "m"), name, domains[0]
             )
+            if name == "stiffness":
+                meaning = "N/m, softer than any car"
+                warn_if_small(value, found[name], _SOFTEST_SPRING, name, meaning, "kN/m", "lbf/in")
             if name in LARGEST:
                 warn_if_large(value, found[name], LARGEST[name], name, "metres", "cm", "in")
     return found
