@@ -220,6 +220,12 @@ def test_drag_factors_of_the_table():
             assert "mfes.com" in row.source
 
 
+@pytest.mark.parametrize("speed", ["30 mph", "44 ft/s", "48.28032 km/h", "13.4112 m/s", 13.4112])
+def test_exactly_thirty_miles_an_hour_is_above_in_any_unit(speed):
+    """A mile has 5280 ft, so 44 ft/s is exactly that, but for rounding."""
+    assert reference.drag_factor("travelled dry asphalt", speed=speed).low == 0.55
+
+
 # EDSMAC manual, Table 2-7, with the surfaces in its order: dry below and above 30 mph, wet below
 # and above.
 EDSMAC = """

@@ -11,6 +11,8 @@ from ..quantities.units import Input
 from .published import Published
 
 _THIRTY = 30.0 * 0.44704
+# Of a speed that was converted from another unit.
+_ROUNDING = 1e-12
 _MANUAL = (
     "EDSMAC manual, chapter 2 (Engineering Dynamics Corporation; "
     "https://github.com/edccorp/hveManuals, docs/manuals/programs/EDSMAC/02-program-input.md)"
@@ -160,4 +162,4 @@ def drag_factor(surface: str, *, speed: Input) -> Published:
             )
         )
     reader.close()
-    return _BY_SURFACE[surface][int(fast >= _THIRTY)]
+    return _BY_SURFACE[surface][int(fast >= _THIRTY * (1.0 - _ROUNDING))]
