@@ -98,6 +98,25 @@ def test_limits_that_are_known():
     assert travel.throw_bounds(0.0, friction=0.7) == (0.0, 0.0)
 
 
+@pytest.mark.parametrize(
+    ("friction", "height", "reached"),
+    [(0.99, 0.0, True), (1.01, 0.0, False), (0.9, 1.0, False), (0.8, 1.0, True)],
+)
+def test_no_throw_reaches_the_least_speed_above_a_friction(friction, height, reached):
+    """The one at the angle whose tangent is the friction would stop where it lands; with a height
+    already below a friction of 1.
+    """
+    angle = math.atan(friction)
+    least, _ = travel.throw_bounds(5.0, friction=friction, height=height)
+    if reached:
+        found = travel.throw_speed(5.0, friction=friction, angle=angle, height=height)
+        assert found == pytest.approx(least, rel=1e-12)
+    else:
+        with pytest.raises(col.NoSolutionError) as caught:
+            travel.throw_speed(5.0, friction=friction, angle=angle, height=height)
+        assert caught.value.code == "stops_at_landing"
+
+
 def test_a_batch_has_each_case_alone_and_counts_what_cannot_be():
     """A case that is refused alone is NaN among others, by the same code."""
     far = np.array([20.0, 1.0, -3.0, 20.0, 30.0])

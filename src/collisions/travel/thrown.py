@@ -139,7 +139,7 @@ def throw_bounds(distance: Input, *, friction: Input, height: Input = 0.0) -> tu
     -----
     The model, its limits and its sources are those of ``throw_speed``. The bounds are those of the
     angle alone: distance and friction have errors of their own, which ``propagate`` adds. Above a
-    friction of 1 the least speed is a bound that no throw reaches.
+    friction of 1, or somewhat less with a height, the least speed is a bound that no throw reaches.
 
     Examples
     --------
