@@ -8,7 +8,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, cast
 
 import numpy as np
 
@@ -30,7 +30,6 @@ from .inputs import (
     OUTSIDE,
     Inputs,
     ModelName,
-    OnFailure,
     errors_of_missing,
     first_case,
     missing_inputs,
@@ -42,9 +41,6 @@ from .models import CANDIDATES, TIME_RESOLVED, model_of, paths_of, read_again, v
 from .models import ECCENTRIC as FULL
 from .run import cases_of, check_options, raise_or_warn, solve_cases, solve_inputs
 from .time_resolved_inputs import timed
-
-if TYPE_CHECKING:
-    from .impact import Impact
 
 _NAMES = (*(model.name for model in CANDIDATES), TIME_RESOLVED.name)
 _LINEAR, _OBLIQUE, _ECCENTRIC, _IN_TIME = _NAMES
@@ -304,21 +300,6 @@ def _apart(inputs: Inputs, answer: Any, other: Any) -> Any:
         turning = select(moves, radius * dw, 0.0)
         worst = larger(worst, (dx * dx + dy * dy + turning * turning) ** 0.5)
     return select((answer.status <= Status.ENERGY_GAIN) & (worst == worst), worst, math.inf)
-
-
-def by_candidate(impact: Impact, model: str, on_failure: OnFailure | None) -> Impact:
-    """The impact of ``solve`` by this one of its candidates, whichever it chose."""
-    from .impact import solved
-    from .noted import noted
-
-    choice: Any = impact.choice
-    number = _NAMES.index(model)
-    which = choice._which
-    which = np.full_like(which, number) if isinstance(which, np.ndarray) else number
-    found = solved(
-        impact.inputs, on_failure=on_failure, choice=replace(choice, _which=which, _refused=False)
-    )
-    return noted(found, on_failure)
 
 
 def where_answered(choice: ModelChoice, refused: Any) -> ModelChoice:

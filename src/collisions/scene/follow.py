@@ -10,7 +10,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..impact.choice import by_candidate
 from ..impact.impact import Impact, way_to_separation
 from ..impact.inputs import OnFailure, part_of
 from ..impact.solvers import eccentric, linear_central, oblique_central, solve, time_resolved
@@ -88,8 +87,8 @@ _LATE = 0.5
 # rounder than drawn explain 0.3 m, at which `diagnose` has a finding; nothing explains more than
 # what a contact crushes.
 _FAR = 0.5
-# The models that the least one near enough is taken from.
-_LEAST_OF = ("linear_central", "oblique_central", "eccentric", IN_TIME)
+# Rounds in which it settles how long a contact lasts in which tyres act for a part.
+_ROUNDS = 3
 # Two contacts that share less of their duration than this share nothing.
 _SHARED = 1e-9
 # How exactly it is found when two first touched: a share of 2 to the power of minus this.
@@ -188,9 +187,9 @@ class _Between:
         self.deepest: Any = np.zeros(count, dtype=bool)
         self.nearest: Any = np.full(count, np.inf)
         self.nearest_at: Any = np.zeros(count)
-        # Of a contact that takes the least model which is near enough, which that is: its place in
-        # ``_LEAST_OF``, -1 before it was decided.
-        self.model: Any = np.full(count, -1)
+        # Of a contact that takes the least model which is near enough, whether it was decided at
+        # first touch that it is none that takes time.
+        self.instant: Any = np.zeros(count, dtype=bool)
         # When they first touched, of the contact that they are in [s]: before the start -inf.
         self.first: Any = np.full(count, np.nan)
         # Touches that came: of which cases, when, and how fast they closed.
@@ -614,7 +613,7 @@ class Followed:
             counts = touches & (touch.closing >= pair.least[cases])
             passes = touches & ~counts
             if pair.rule is not None:
-                pair.model[cases[counts]] = -1
+                pair.instant[cases[counts]] = False
                 self._arrange(pair, cases[counts])
             # A resting contact is passed over: the search goes on once they were apart.
             over = cases[passes]
@@ -737,7 +736,7 @@ class Followed:
         # known.
         early = np.full(len(cases), contact.in_time)
         if contact.takes_least and contact.may_be_in_time:
-            early = pair.model[cases] < 0
+            early = ~pair.instant[cases]
             pair.seen[cases] = due
         elif contact.in_time:
             pair.seen[cases] = due
@@ -813,37 +812,37 @@ class Followed:
         if not contact.takes_least:
             self._strike_by(contact, rule, pair, which, now)
             return
-        fresh = which[pair.model[which] < 0] if contact.touches else which
+        # A contact in time begins at first touch; what takes no time acts when an impulse does.
+        early = np.zeros(len(which), dtype=bool)
+        if contact.touches and contact.may_be_in_time:
+            early = ~pair.instant[which] & (now[which] < pair.seen[which])
+        fresh = which[early]
         if len(fresh):
-            self._decide(contact, rule, pair, fresh, now)
-        # What was decided at first touch to take no time acts when an impulse does.
-        later = np.zeros(len(which), dtype=bool)
-        if contact.touches:
-            later = (pair.model[which] != _LEAST_OF.index(IN_TIME)) & (
-                now[which] < pair.seen[which]
-            )
-        pair.due[which[later]] = pair.seen[which[later]]
-        which = which[~later]
-        for number in np.unique(pair.model[which]).tolist():
-            some = which[pair.model[which] == number]
-            model = _LEAST_OF[number]
-            self._strike_by(contact._by_model(model), rule, pair, some, now, model)
+            begins = self._least(contact._by_model(IN_TIME), rule, pair, fresh, now) == IN_TIME
+            self._strike_by(contact._by_model(IN_TIME), rule, pair, fresh[begins], now)
+            wait = fresh[~begins]
+            pair.instant[wait], pair.due[wait] = True, pair.seen[wait]
+        which = which[~early]
+        if not len(which):
+            return
+        models = self._least(contact, rule, pair, which, now)
+        for model in np.unique(models).tolist():
+            self._strike_by(contact._by_model(model), rule, pair, which[models == model], now)
 
-    def _decide(self, contact: Contact, rule: int, pair: _Between, which: Any, now: Any) -> None:
-        """Decide by which model some cases of a contact are worked out."""
+    def _least(self, contact: Contact, rule: int, pair: _Between, which: Any, now: Any) -> Any:
+        """The least model near enough of each of these cases of a contact, by where it strikes now:
+        of a contact in time where that begins.
+        """
         time = now[which]
         states = {name: self.courses[name].at(time, which) for name in (contact.a, contact.b)}
-        begins = contact
-        if contact.may_be_in_time:
-            begins = contact._by_model(IN_TIME)
-        # What cannot be decided is refused where it strikes.
-        found: Any = _LEAST_OF.index("eccentric")
+        # What cannot be worked out is refused where it strikes.
+        found: Any = "eccentric"
         with self._unsaid(), quietly(), suppress(CollisionsError):
-            place = self._place(pair, begins, which, time, states)
-            impact = self._solved_by(rule, contact, which, time, states, place)
-            names = np.broadcast_to(np.asarray(impact.model), len(which))
-            found = np.array([_LEAST_OF.index(name) for name in names.tolist()])
-        pair.model[which] = found
+            place = self._place(pair, contact, which, time, states)
+            whole = self.contacts[rule]
+            impact = self._solved_by(rule, whole, which, time, states, place, on_failure="nan")
+            found = impact.model
+        return np.broadcast_to(np.asarray(found, dtype=object), len(which))
 
     @contextmanager
     def _unsaid(self) -> Iterator[None]:
@@ -862,7 +861,6 @@ class Followed:
         pair: _Between,
         which: Any,
         now: Any,
-        model: str | None = None,
     ) -> None:
         which = self._refuse_meanwhile(rule, contact, which, now[which])
         if not len(which):
@@ -891,7 +889,7 @@ class Followed:
                     else tuple(one[closes] if np.ndim(one) else one for one in part)
                     for part in (normal, point)
                 )
-        impact = self._solved(rule, contact, which, time, states, (normal, point), model)
+        impact = self._solved(rule, contact, which, time, states, (normal, point))
         refused = np.atleast_1d(np.asarray(impact.status)) > Status.ENERGY_GAIN
         if refused.any() and not self.single:
             labels = np.array([Status(code).label for code in np.ravel(impact.status).tolist()])
@@ -1005,7 +1003,7 @@ class Followed:
         if not len(some):
             return
         contact = self.contacts[pair.rule]
-        pair.model[some] = -1
+        pair.instant[some] = False
         pair.touch[some], pair.closing[some] = time[driven], closing[driven]
         pair.axis[some], pair.deepest[some] = widest[driven], False
         pair.due[some] = pair.seen[some] = time[driven]
@@ -1215,27 +1213,15 @@ class Followed:
         )
 
     def _solved(
-        self,
-        rule: int,
-        contact: Contact,
-        which: Any,
-        time: Any,
-        states: Any,
-        place: Any,
-        model: str | None,
+        self, rule: int, contact: Contact, which: Any, time: Any, states: Any, place: Any
     ) -> Impact:
-        """The impact of a contact, of one that takes the least model near enough by this one."""
-        if model is None or contact.in_time:
+        """The impact of a contact; of one that takes the least model near enough the answer of
+        ``solve``, which takes that model again.
+        """
+        if contact.in_time:
             return self._solved_by(rule, contact, which, time, states, place)
-        whole = self.contacts[rule]
-        with quietly(), nullcontext() if contact.duration is not None else self._unsaid():
-            found = self._solved_by(rule, whole, which, time, states, place, on_failure="nan")
-        cases = np.isin(np.arange(self.count), which)
-        try:
-            with in_si(), of_some(cases, but=NO_ANSWER):
-                return by_candidate(found, model, None if self.single else "nan")
-        except CollisionsError as error:
-            raise self._at(error, rule, time) from None
+        with nullcontext() if contact.duration is not None else self._unsaid():
+            return self._solved_by(rule, self.contacts[rule], which, time, states, place)
 
     def _at(self, error: CollisionsError, rule: int, time: Any) -> CollisionsError:
         """The error with the contact and its time before it."""
@@ -1279,27 +1265,62 @@ class Followed:
                 options = {name: options[name] for name in ("normal", "point", FRICTION)}
                 at_start = not contact.touches and float(time[0]) == 0.0
                 options["geometry"] = "maximum_engagement" if at_start else "first_contact"
-            if contact.duration is not None:
-                options["duration"] = numbers(contact.duration)
-                for label, name in (("a", contact.a), ("b", contact.b)):
-                    options[f"tyres_{label}"] = self._tyres(
-                        contact, name, which, time, states[name]
-                    )
         if contact.model == "solve":
             options["tolerance"] = 0.0 if contact.tolerance is None else numbers(contact.tolerance)
-        options["on_failure"] = on_failure if self.single else "nan"
+
+        def solved(spans: Any, on_failure: OnFailure | None) -> Impact:
+            given = options | {"on_failure": on_failure if self.single else "nan"}
+            if spans is not None:
+                given["duration"] = numbers(contact.duration)
+                given |= {
+                    f"tyres_{label}": self._tyres(name, which, time, spans, states[name])
+                    for label, name in (("a", contact.a), ("b", contact.b))
+                }
+            found: Impact = solver(a, b, numbers(contact.restitution), **given)
+            return found
+
+        spans = None if contact.duration is None else self._duration(contact, which, time)
         # Of a study, what is warned of is noted of the cases that come to this contact now; which
         # of them have no answer the run says itself.
         cases = np.isin(np.arange(self.count), which)
         try:
             with in_si(), of_some(cases, but=NO_ANSWER):
-                found: Impact = solver(a, b, numbers(contact.restitution), **options)
+                if (
+                    contact.in_time
+                    and spans is not None
+                    and self._shares(states, which, time, spans)
+                ):
+                    # How much of it the tyres have had goes by how long it lasts, and the other
+                    # way round: a few rounds settle that.
+                    with self._unsaid(), quietly():
+                        for _ in range(_ROUNDS):
+                            whole, left = _lasts(solved(spans, "nan"), len(which))
+                            known = np.isfinite(left)
+                            spans = (
+                                np.where(known, whole, spans[0]),
+                                np.where(known, left, spans[1]),
+                            )
+                return solved(spans, on_failure)
         except CollisionsError as error:
             raise self._at(error, rule, time) from None
-        return found
+
+    def _shares(self, names: Iterable[str], which: Any, time: Any, spans: tuple[Any, Any]) -> bool:
+        """Whether tyres of these vehicles act for a part of a contact only, in any case."""
+        return any(bool(self._had(name, which, time, spans).any()) for name in names)
+
+    def _had(self, name: str, which: Any, time: Any, spans: tuple[Any, Any]) -> Any:
+        """For how much of a contact, of which ``spans`` has all and what is to come [s], the
+        impulses of earlier ones have what the tyres of a vehicle do.
+        """
+        lasting, hold = spans
+        begin, until = self.braked[name][:, which]
+        ends = time + hold
+        had = np.minimum(until, ends) - np.maximum(begin, ends - lasting)
+        # One that follows at once on another shares nothing with it but rounding.
+        return np.where(had > _SHARED * lasting, np.clip(had, 0.0, lasting), 0.0)
 
     def _tyres(
-        self, contact: Contact, name: str, which: Any, time: Any, state: Any
+        self, name: str, which: Any, time: Any, spans: tuple[Any, Any], state: Any
     ) -> Tyres | None:
         """The tyres of a vehicle on the ground where it is in a contact that lasts, for as much of
         it as no earlier one has already.
@@ -1317,13 +1338,7 @@ class Followed:
                 "while the contact lasts"
             )
             self.notices.append(Noted("mixed_friction", text, float(time[0]), (name,)))
-        lasting, hold = self._duration(contact, which, time)
-        begin, until = self.braked[name][:, which]
-        ends = time + hold
-        had = np.minimum(until, ends) - np.maximum(begin, ends - lasting)
-        had = np.clip(had, 0.0, lasting)
-        # One that follows at once on another shares nothing with it but rounding.
-        had = np.where(had > _SHARED * lasting, had, 0.0)
+        lasting, had = spans[0], self._had(name, which, time, spans)
         if not had.any():
             return tyres
         self.partly[which] |= had > 0.0
@@ -1353,11 +1368,7 @@ class Followed:
         way = way_to_separation(impact)
         passed = np.zeros(len(which), dtype=bool)
         if way is not None:
-            # The places given are those of first touch, or of maximum engagement.
-            lasts = whole = way.duration
-            if impact.inputs.geometry != "first_contact":
-                lasts = lasts - way.engaged
-            lasts = np.broadcast_to(lasts, len(which))
+            whole, lasts = _lasts(impact, len(which))
             passed = np.isfinite(lasts)
             hold = np.where(passed, lasts, hold)
             lasting = np.where(passed, whole, lasting)
@@ -1565,6 +1576,20 @@ class Followed:
             )
         found = min((gap(time), time) for time in (0.5 * (low + high), times[best]))
         return found if found[0] < near else (near, at)
+
+
+def _lasts(impact: Impact, count: int) -> tuple[Any, Any]:
+    """How long contacts last that were followed in time, and how much of that is to come [s]; NaN
+    of a case that was not.
+    """
+    way = way_to_separation(impact)
+    if way is None:
+        return np.full(count, np.nan), np.full(count, np.nan)
+    whole = left = np.broadcast_to(way.duration, count)
+    # The places given are those of first touch, or of maximum engagement.
+    if impact.inputs.geometry != "first_contact":
+        left = np.broadcast_to(whole - way.engaged, count)
+    return whole, left
 
 
 def _ends(
