@@ -308,6 +308,9 @@ def test_what_is_0_in_print_is_0():
     assert page._share_apart(left, right, "speed") == 0.0
     assert page._share_apart(left, symbols.Symbol("q", 1e-3, "speed"), "speed") == 1.0
     assert page._share_apart(symbols.Symbol("s", math.nan, "speed"), right, "speed") == math.inf
+    beyond = symbols.Symbol("q", 1e300, "number") * symbols.Symbol("r", 1e300, "number")
+    none = symbols.Symbol("e", 0.0, "number")
+    assert math.isnan(page._share_apart(none, beyond / beyond, "number"))
 
 
 def test_a_divisor_that_is_all_rounding_is_no_contradiction():

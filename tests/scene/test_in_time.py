@@ -14,6 +14,7 @@ import pytest
 import collisions as col
 from collisions.impact.instant import neglected
 from collisions.kernels.tyre import wheel_forces
+from collisions.reporting import replay
 from collisions.scene import Contact, Mover, Run, Scene
 from collisions.scene.ledger import tyres_in_part
 from collisions.travel import Tyres
@@ -551,6 +552,79 @@ def test_the_least_model_near_enough_moves_on_as_that_model_does(
     assert least.times == same.times
     assert same_way(least, same)
     assert impact.choice is None if model == "time_resolved" else impact.choice.model == model
+
+
+@pytest.mark.filterwarnings("ignore::collisions.OutOfRangeWarning")
+def test_a_case_that_solve_refuses_at_first_touch_is_that_alone() -> None:
+    """At first touch there is no contact about a maximum engagement, and it is followed in time
+    from there, in a batch and alone.
+    """
+
+    def run_of(x: Any) -> Run:
+        states = {
+            "A": {"x": -6.735, "y": -0.3298, "heading": 0.0, "vx": 17.293},
+            "B": {"x": 0.0, "y": 0.0, "heading": 0.5, "vx": 2.0805, "yaw_rate": 0.5},
+            "C": {"x": x, "y": -0.1289, "heading": 0.2, "vx": 0.0},
+        }
+        tyres = {
+            "A": Tyres(0.7, 1.0, 2.7, 1.5),
+            "B": Tyres(0.8, 0.3, 2.7, 1.5),
+            "C": Tyres(0.8, [1.0, 0.05, 0.05, 0.05], 2.7, 1.5),
+        }
+        movers = {
+            name: Mover(car(**state), outline=(4.5, 1.8), tyres=tyres[name])
+            for name, state in states.items()
+        }
+        rule: dict[str, Any] = {"at": "touch", "restitution": 0.1}
+        contacts = [
+            Contact("A", "B", friction=0.3, duration=0.2, model="eccentric", depth=0.3, **rule),
+            Contact("B", "C", friction=0.6, duration=0.12, model="solve", tolerance=0.1, **rule),
+        ]
+        surfaces = [([(2, -4), (9, -4), (9, 4), (2, 4)], 0.4)]
+        slope = (-0.06879, 0.02)
+        return Scene(movers=movers, contacts=contacts, surfaces=surfaces, slope=slope).run()
+
+    alone, batch = run_of(4.92246), run_of(np.array([4.92246, 5.1]))
+    assert alone.impacts[1].model == "time_resolved"
+    first = batch.case(0)
+    assert [one.model for one in first.impacts] == [one.model for one in alone.impacts]
+    for name in "ABC":
+        assert batch.at(1.0)[name].x[0] == pytest.approx(alone.at(1.0)[name].x, abs=1e-6)
+
+
+@pytest.mark.parametrize("tolerance", [0.001, 1.0, 8.0])
+def test_an_impact_of_the_least_model_comes_back_from_its_record(tolerance: float) -> None:
+    """It is what ``solve`` gives, or the contact in time; its reason holds where it acts."""
+    impact = chosen(12.0, "touch", duration=0.1, model="solve", tolerance=tolerance).impacts[0]
+    again = col.Impact.from_dict(json.loads(json.dumps(impact.to_dict())))
+    assert (again.model, again.b.delta_v) == (impact.model, impact.b.delta_v)
+    assert replay(col.report(impact, form="markdown")).b.delta_v == impact.b.delta_v
+    if impact.choice is not None:
+        assert impact.choice.errors[impact.model] <= tolerance
+
+
+def test_tyres_in_a_contact_in_time_act_for_what_is_left_of_it_as_it_lasts() -> None:
+    """The contact of B and C lasts longer than the duration that is stated of it, as tyres act in
+    it: until its end they have had what the first took for 0.1 s more.
+    """
+    movers = {
+        name: Mover(car(x=x, vx=vx), tyres=Tyres(0.7, 1.0, 2.7, 1.5))
+        for name, x, vx in (("A", -5.0, 16.0), ("B", 0.0, 12.0), ("C", 5.0, 8.0))
+    }
+    rule: dict[str, Any] = {"restitution": 0.1, "friction": 0.4, "normal": 0.0}
+    contacts = [
+        Contact("A", "B", point=(-2.5, 0.0), duration=0.2, model="eccentric", **rule),
+        Contact("B", "C", point=(2.5, 0.0), at=0.02, duration=0.17, **rule),
+    ]
+    run = Scene(movers=movers, contacts=contacts).run()
+    second = run.impacts[1]
+    lasts = second.pulse.duration
+    assert abs(lasts - 0.17) > 1e-3
+    taken = -second.a.tyre_impulse_x / (0.7 * 9.80665 * 1500.0)
+    assert taken == pytest.approx(lasts - (0.1 - 0.02), rel=1e-3)
+    (found,) = [one for one in run.findings if one.code == "durations_overlap"]
+    assert f"act for {taken:.3g} s" in found.sentence
+    assert f"of its {lasts:.3g} s" in found.sentence
 
 
 @pytest.mark.filterwarnings("ignore:in . of . cases of the scene two vehicles")

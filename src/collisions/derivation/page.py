@@ -127,7 +127,7 @@ class Page:
             return f"{self.system.answer(value, kind)} ({bound})"
         half = 0.5 * (high - low)
         beside = value
-        if kind == "angle" and math.isfinite(high + low):
+        if kind == "angle":
             # On the turn of its range, which may go on beyond half a turn.
             beside += math.tau * round((low + half - value) / math.tau)
         printed = self.system.span(beside, beside, kind, half)
@@ -374,7 +374,7 @@ def _share_apart(left: Expression, right: Expression, kind: str) -> float:
     if isinstance(right, Direction):
         # One direction has many angles.
         off = math.remainder(off, math.tau)
-    return abs(off) / max(left.size, right.size)
+    return math.nan if math.isnan(off) else abs(off) / max(left.size, right.size)
 
 
 def _defect(equation: str, what: str, share: float) -> InternalError:

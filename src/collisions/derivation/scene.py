@@ -18,11 +18,13 @@ def scene_steps(page: Page, run: Run, steps: Callable[[Page, Impact], None]) -> 
     """
     movers = run.scene.movers
     names = [page.name(name) for name in movers]
+    lasting = any(one.duration is not None and not one.in_time for one in run.scene.contacts)
+    unslowed = ", and unslowed while the duration of an impulse has not passed" if lasting else ""
     page.say(
         f"A scene of {', '.join(names)} with {len(run.impacts)} impact"
         f"{'s' * (len(run.impacts) != 1)}. Between impacts each vehicle moves over the ground by "
-        "its tyres or its drag, and unslowed while the duration of an impulse has not passed; what "
-        "is given for a later impact is the state that it comes with."
+        f"its tyres or its drag{unslowed}; what is given for a later impact is the state that it "
+        "comes with."
     )
     found = run._findings_in(page.system.name)
     if found:

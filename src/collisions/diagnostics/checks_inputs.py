@@ -311,8 +311,8 @@ def _in_time(case: Case) -> Impact | None:
     "set here: no contact of vehicles lasts ten times reference.CONTACT_DURATION; ms as s",
 )
 def suspect_duration(case: Case) -> Iterator[Measured]:
-    impact = _in_time(case)
-    duration = case.duration if impact is None or impact.pulse is None else impact.pulse.duration
+    pulse = None if (impact := _in_time(case)) is None else impact.pulse
+    duration = case.duration if pulse is None else pulse.duration
     times = duration / CONTACT_DURATION.high
     sentence = (
         f"the contact is taken to last {duration:.6g} s, {times:.3g} times what was "

@@ -84,7 +84,7 @@ class Comparison(Summarized):
 
     def _summary(self, numbers: Cells) -> Summary:
         rows = [
-            (name, self._with_error(name), chance(self.prior[name], _FIGURES))
+            (name, self._with_error(name), f"{self.prior[name]:.{_FIGURES}g}")
             for name in self.probability
         ]
         stated = [
@@ -276,7 +276,7 @@ def _sentence(
                 "error)"
             )
         parts.append(f'{times} more probable if "{best}" is true than if "{other}" is')
-    stated = _listed(f'{chance(before[name], _FIGURES)} for "{name}"' for name in before)
+    stated = _listed(f'{before[name]:.{_FIGURES}g} for "{name}"' for name in before)
     found = _listed(chance(after[name], _FIGURES) for name in before)
     return (
         f"The evidence is {' and '.join(parts)}. Prior probabilities of {stated} become {found}. "

@@ -497,7 +497,8 @@ def _chosen(impact: Impact, system: Cells) -> str:
     """Where ``solve`` took a smaller model for the start, which need not do elsewhere."""
     if impact.choice is None or impact.choice._keeps_all:
         return ""
-    fuller = "" if impact.model == "eccentric" else "; for a page without that error take eccentric"
+    timed = impact.inputs.duration is not None
+    fuller = "" if timed else "; for a page without that error take eccentric"
     return (
         f" The model was chosen by solve for where the sliders start "
         f"({impact.choice._reason_in(system)}). The page keeps it: how far it errs elsewhere is "

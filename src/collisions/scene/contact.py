@@ -88,10 +88,11 @@ class Contact(Shown):
         the velocities after it until it has passed, and from there on their tyres: that is the
         duration, and at time 0 half of it, as the states there are those of maximum engagement,
         with half of the contact before them. Tyres of a vehicle whose earlier contact has not
-        passed act for the rest only, which is a finding. "solve" takes the least of all models
-        that is near enough, by the states at first touch where the contact in time may be that;
-        it is then followed from there, and a central one leaves tyres what they do. Tyres have the
-        friction of the surface that the vehicle stands on, or the mean of several, which is a
+        passed act for the rest only, which is a finding. "solve" takes the least model that is near
+        enough. Where a contact in time is among the models, it decides at first touch whether that
+        is required, and if so the contact begins there; else it decides among all of them where the
+        impulse acts. A central model has nothing of the tyres, which act all the while. Tyres have
+        the friction of the surface that the vehicle stands on, or the mean of several, which is a
         finding. A drag of a vehicle, in place of tyres, does not act meanwhile, which is a finding
         too.
     tolerance : float, str, Quantity or array [m/s], optional
@@ -283,12 +284,12 @@ class Contact(Shown):
         return self.model == IN_TIME
 
     @property
-    def takes_least(self) -> bool:
+    def _takes_least(self) -> bool:
         """Whether the contact takes the least model that is near enough, which may take time."""
         return self.model == "solve" and self.duration is not None
 
     @property
-    def may_be_in_time(self) -> bool:
+    def _may_be_in_time(self) -> bool:
         """Whether the contact has what one followed in time takes."""
         return self.rule == FRICTION and self.law == BRACH and not self.incomplete
 

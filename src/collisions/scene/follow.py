@@ -735,7 +735,7 @@ class Followed:
         # A contact in time begins at first touch, where the face and the place that it comes to are
         # known.
         early = np.full(len(cases), contact.in_time)
-        if contact.takes_least and contact.may_be_in_time:
+        if contact._takes_least and contact._may_be_in_time:
             early = ~pair.instant[cases]
             pair.seen[cases] = due
         elif contact.in_time:
@@ -809,12 +809,12 @@ class Followed:
         """Apply a contact whose time has come, by its model or by the least that is near enough."""
         contact = self.contacts[rule]
         pair = next(p for p in self._pairs if {contact.a, contact.b} == {*p.names})
-        if not contact.takes_least:
+        if not contact._takes_least:
             self._strike_by(contact, rule, pair, which, now)
             return
         # A contact in time begins at first touch; what takes no time acts when an impulse does.
         early = np.zeros(len(which), dtype=bool)
-        if contact.touches and contact.may_be_in_time:
+        if contact.touches and contact._may_be_in_time:
             early = ~pair.instant[which] & (now[which] < pair.seen[which])
         fresh = which[early]
         if len(fresh):

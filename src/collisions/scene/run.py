@@ -403,8 +403,8 @@ class Run(Frozen, Summarized):
         Returns
         -------
         dict of list
-            By path, as ``Scene.results`` lists them, but for those of marks, and the status of each
-            impact: "ok", "energy_gain", or "" where there is none. Of a batch whose
+            By path, as ``Scene.results`` lists them, without those of marks; and besides them the
+            status of each impact: "ok", "energy_gain", or "" where there is none. Of a batch whose
             contacts come in several orders, "impacts[k]" and "times[k]" have the impact that most
             cases have there, with a warning, and NaN in the others; "contacts[i].impact" has the
             first impact of a contact in every case.
