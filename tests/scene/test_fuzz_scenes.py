@@ -201,3 +201,53 @@ def test_fuzzed_scenes_raise_nothing_foreign() -> None:
             raise
     # Most scenes of a fuzz that tests something are followed to their end.
     assert found["answered"] >= 0.3 * found.total(), found
+
+
+def alone_and_among_others(seed: int) -> str:
+    """Whether each case of a batch goes the way that it goes alone: by the same models at the same
+    times, and to the same places.
+    """
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", col.CollisionsWarning)
+        try:
+            crash = Drawn(seed).scene()
+            if crash.shape is not None:
+                return "a batch itself"
+            name = next((one for one, mover in crash.movers.items() if mover.vehicle.speed), "A")
+            path, was = f"{name}.vx", crash.movers[name].vehicle.vx
+            speeds = was + np.array([0.0, 0.4, 1.1])
+            batch = crash.replace({path: speeds}).run(tolerance=1e-3)
+        except col.CollisionsError as error:
+            return labelled(error)
+        for number, speed in enumerate(speeds.tolist()):
+            alone, code = None, "ok"
+            try:
+                alone = crash.replace({path: speed}).run(tolerance=1e-3)
+            except col.CollisionsError as error:
+                code = error.code
+            # Of several reasons a batch may meet another first.
+            assert (batch.status[number] == "ok") == (code == "ok"), (batch.status[number], code)
+            if alone is None:
+                continue
+            first = batch.case(number)
+            for one, other in zip(first.impacts, alone.impacts, strict=True):
+                assert one.model == other.model
+            assert np.allclose(first.times, alone.times, rtol=0.0, atol=1e-6)
+            among = batch.at(0.5)
+            for body, state in alone.at(0.5).items():
+                for part in ("x", "y", "heading"):
+                    here = np.broadcast_to(getattr(among[body], part), 3)[number]
+                    assert abs(here - getattr(state, part)) < 1e-5, (body, part)
+    return "answered"
+
+
+@pytest.mark.slow
+def test_fuzzed_batches_go_as_their_cases_do() -> None:
+    found: Counter[str] = Counter()
+    for seed in seeds():
+        try:
+            found[alone_and_among_others(seed)] += 1
+        except Exception as error:
+            error.add_note(f"seed {seed}")
+            raise
+    assert found["answered"] >= 0.3 * found.total(), found
