@@ -275,19 +275,7 @@ def warn_if_large(
     """
     worst = _farthest(read)
     if limit < abs(worst) < math.inf and not has_unit(given):
-        spelled = " or ".join(f"'{worst:g} {unit}'" for unit in units)
-        warn(
-            SuspectUnitsWarning(
-                f"{argument} = {worst:g} is read as {meaning}; if another unit was meant, write "
-                f"{spelled}",
-                code="suspect_units",
-                argument=argument,
-                value=worst,
-            ),
-            np.abs(read) > limit,
-            f"{argument} is so large, read as {meaning}, that {' or '.join(units)} may have been "
-            "meant; then write the unit with the number",
-        )
+        _warn_of_size(worst, np.abs(read) > limit, "large", argument, meaning, units)
 
 
 def warn_if_small(
@@ -296,24 +284,28 @@ def warn_if_small(
     """Warns that a number above 0 without a unit is so small that it may have been meant in one of
     these units.
     """
-    if has_unit(given):
-        return
     small = np.greater(read, 0.0) & np.less(read, limit)
-    if np.any(small):
+    if np.any(small) and not has_unit(given):
         least = float(np.min(read, where=small, initial=limit))
-        spelled = " or ".join(f"'{least:g} {unit}'" for unit in units)
-        warn(
-            SuspectUnitsWarning(
-                f"{argument} = {least:g} is read as {meaning}; if another unit was meant, write "
-                f"{spelled}",
-                code="suspect_units",
-                argument=argument,
-                value=least,
-            ),
-            small,
-            f"{argument} is so small, read as {meaning}, that {' or '.join(units)} may have been "
-            "meant; then write the unit with the number",
-        )
+        _warn_of_size(least, small, "small", argument, meaning, units)
+
+
+def _warn_of_size(
+    worst: float, cases: Any, size: str, argument: str, meaning: str, units: Sequence[str]
+) -> None:
+    spelled = " or ".join(f"'{worst:g} {unit}'" for unit in units)
+    warn(
+        SuspectUnitsWarning(
+            f"{argument} = {worst:g} is read as {meaning}; if another unit was meant, write "
+            f"{spelled}",
+            code="suspect_units",
+            argument=argument,
+            value=worst,
+        ),
+        cases,
+        f"{argument} is so {size}, read as {meaning}, that {' or '.join(units)} may have been "
+        "meant; then write the unit with the number",
+    )
 
 
 def _read(value: Any, unit: str, argument: str) -> tuple[Any, str]:
