@@ -162,7 +162,7 @@ def test_the_range_in_the_sentence_is_two_standard_errors_of_independent_runs(ac
         }
     )
     assert found.log_bayes_factor_errors["here", "there"] == pytest.approx(0.05, rel=1e-12)
-    assert "The evidence is 20 times (18 to 22, allowing for sampling error)" in found.sentence
+    assert "The evidence is 20 times (18.1 to 22.1, allowing for sampling error)" in found.sentence
     assert "of 0.5 for " in found.sentence
     assert "become 0.952 and 0.0476." in found.sentence
 
@@ -175,7 +175,7 @@ def test_the_sentence_begins_with_what_the_evidence_favours_whatever_was_thought
     }
     found = compare(two, {"likely": 0.9, "unlikely": 0.1})
     assert found.sentence.startswith(
-        "The evidence is 3 times (3 to 3, allowing for sampling error) more probable if "
+        "The evidence is 3 times (2.99 to 3.01, allowing for sampling error) more probable if "
         '"unlikely" is true than if "likely" is. Prior probabilities of 0.9 for "likely" and 0.1 '
         'for "unlikely" become 0.75 and 0.25.'
     )

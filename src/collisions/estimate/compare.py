@@ -260,6 +260,11 @@ def _bad_prior(text: str) -> InputError:
     return InputError(text, code="bad_prior", argument="prior")
 
 
+def _in_figures(value: float) -> str:
+    """A number in three figures, without a power of ten up to a million."""
+    return f"{float(f'{value:.{_FIGURES}g}'):.7g}"
+
+
 def _sentence(
     before: Mapping[str, float], after: Mapping[str, float], logs: Mapping[str, float], errors: Any
 ) -> str:
@@ -271,10 +276,8 @@ def _sentence(
         times = "more than a million times"
         if factor < _MOST:
             low, high = (math.exp(factor + 2.0 * side * error) for side in (-1.0, 1.0))
-            times = (
-                f"{math.exp(factor):.3g} times ({low:.2g} to {high:.2g}, allowing for sampling "
-                "error)"
-            )
+            most, least, greatest = map(_in_figures, (math.exp(factor), low, high))
+            times = f"{most} times ({least} to {greatest}, allowing for sampling error)"
         parts.append(f'{times} more probable if "{best}" is true than if "{other}" is')
     stated = _listed(f'{before[name]:.{_FIGURES}g} for "{name}"' for name in before)
     found = _listed(chance(after[name], _FIGURES) for name in before)

@@ -121,7 +121,10 @@ class Estimate(WithUnit):
 
         Normal theory around the estimate where the model is nearly linear; elsewhere the values at
         which chi-squared rises by less than the square of the normal score of the coverage, with
-        the other unknowns fitted again. The bounds themselves where nothing determines the unknown.
+        the other unknowns fitted again. That is fitted for 95 percent, and where in doubt for 50,
+        80, 90 and 99 percent; ends for others lie between these as the profile has them, beside a
+        kink up to a quarter of the range off, and beyond 99.6 percent they go on as at its end. The
+        bounds themselves where nothing determines the unknown.
 
         Parameters
         ----------
