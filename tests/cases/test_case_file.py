@@ -484,6 +484,27 @@ def test_two_answers_are_told_apart():
     assert mean == pytest.approx(
         both.results[1].a.before.speed, rel=0.02
     )  # 6 moves by 1.7 percent, and the answer by less
+    # A fit follows the one that is asked for too, here to the delta-V as it is stated.
+    stated = text.replace("delta_v_a = 6", 'delta_v_a = "6 m/s +/- 0.05 m/s"')
+    for number, root in enumerate(both.results, 1):
+        speed = f'{root.a.before.speed!r} m/s +/- 0.01 m/s"\n'
+        asked = stated + f'[fit]\n[observed]\n"a.before.speed" = "{speed}'
+        assert problems(asked)[0].startswith("answer: is not given, and 2 answers fit")
+        assert problems("answer = 3\n" + asked) == [
+            "answer: is 3, and 2 fit; write a number from 1 to 2"
+        ]
+        (fitted,) = answers(read_text(f"answer = {number}\n{asked}".encode())).results
+        assert fitted["delta_v_a"].value == pytest.approx(6.0, abs=1e-3)
+
+
+def test_an_answer_that_is_not_there_is_refused_for_every_study():
+    """One answer fits, and the second is asked for."""
+    text = (
+        'answer = 2\n[a]\nmass = 1500\nvx = "10 m/s +/- 1 m/s"\n[b]\nmass = 1300\n'
+        "[linear_central]\nrestitution = 0.1\n"
+    )
+    for study in ("[propagate]\n", '[fit]\n[observed]\n"a.delta_v" = "4 m/s +/- 0.5 m/s"\n'):
+        assert problems(text + study) == ["answer: is 2, and 1 fit; write a number from 1 to 1"]
 
 
 def test_cases_with_another_number_of_answers_are_no_cases_without():

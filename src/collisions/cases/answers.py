@@ -374,13 +374,7 @@ def _answered(case: Case, noted: list[str]) -> tuple[Any, Any]:
     if case.study in ("", "propagate"):
         with _noting(noted) as of_the_case, of_answer(_at(case)):
             roots = _all_roots(case)
-        results = roots if case.answer is None else roots[case.answer - 1 : case.answer]
-        if not results:
-            text = (
-                f"is {as_in_file(case.answer)}, and {len(roots)} fit; write a number from 1 to "
-                f"{len(roots)}"
-            )
-            raise CaseError(("answer", text))
+        results = _asked_for(case, roots)
         with _noting(noted, of_the_case):
             propagation = _propagated(case, results, len(roots)) if case.uncertain else None
         if case.study and not case.uncertain:
@@ -394,7 +388,7 @@ def _answered(case: Case, noted: list[str]) -> tuple[Any, Any]:
             model = (
                 crash_model(case, list(observed), f"{case.study}.observed")
                 if case.solver == SCENE
-                else _model(case, observed, 0, 1)
+                else _model(case, observed, _at(case) or 0, _count(case))
             )
             unknowns = {name: one.stated for name, one in case.uncertain.items()}
             study = Call(
@@ -404,6 +398,42 @@ def _answered(case: Case, noted: list[str]) -> tuple[Any, Any]:
             )
             results, propagation = (study({}),), None
     return results, propagation
+
+
+def _asked_for(case: Case, roots: tuple[Any, ...]) -> tuple[Any, ...]:
+    """The answer that the file asks for, or all of them."""
+    results = roots if case.answer is None else roots[case.answer - 1 : case.answer]
+    if not results:
+        text = (
+            f"is {as_in_file(case.answer)}, and {len(roots)} fit; write a number from 1 to "
+            f"{len(roots)}"
+        )
+        raise CaseError(("answer", text))
+    return results
+
+
+def _count(case: Case) -> int:
+    """How many answers a case has with each of its numbers as stated, of which a fit or posterior
+    follows the one that the file asks for; 1 where it has none there.
+    """
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            roots = _all_roots(case)
+    except CaseError:
+        if (case.answer or 1) > 1:
+            raise
+        return 1
+    if len(_asked_for(case, roots)) > 1:
+        raise _unchosen(len(roots))
+    return len(roots)
+
+
+def _unchosen(count: int) -> CaseError:
+    text = (
+        f"is not given, and {count} answers fit; write answer = 1 or another at the top of the file"
+    )
+    return CaseError(("answer", text), refused=True, code="ambiguous")
 
 
 @contextmanager
@@ -481,11 +511,7 @@ def _propagated(case: Case, results: tuple[Any, ...], count: int) -> Any:
     looks for.
     """
     if len(results) > 1:
-        text = (
-            f"is not given, and {count} answers fit; write answer = 1 or another at the top of "
-            "the file"
-        )
-        raise CaseError(("answer", text), refused=True, code="ambiguous")
+        raise _unchosen(count)
     options = dict(case.options)
     outputs = options.pop("outputs", _default_outputs(results[0]))
     if (
