@@ -62,7 +62,8 @@ class Contact(Shown):
         too by the face struck at first touch, to which both came straight on where they overlap
         from the start.
     point : pair [m], optional
-        Scene point at which the impulse acts, with ``normal``. From the outlines if not given. It
+        Scene point at which the impulse acts, with ``normal``. From the outlines if not given: of a
+        contact at a time from their overlap then, at bare first touch the corner that touches. It
         lies in an outline, or no more than 0.5 m outside of the nearer one. The central models have
         none.
     at : float, str, Quantity or array [s], or "touch"
