@@ -259,8 +259,9 @@ class Followed:
         self.braked: dict[str, Any] = {
             name: np.repeat([[np.inf], [-np.inf]], self.count, axis=1) for name in movers
         }
-        # By mover, how long its contacts at the start had lasted by then [s].
-        self.ahead: dict[str, Any] = {name: np.zeros(self.count) for name in movers}
+        # By mover, for how much longer than there is time a slope pulls in its last contact, and
+        # from when to when [s].
+        self.owed: dict[str, Any] = {name: np.zeros((3, self.count)) for name in movers}
         self._pairs = self._all_pairs()
         for contact in contacts:
             self._refuse_numbers(contact)
@@ -1418,14 +1419,16 @@ class Followed:
         contacts has what they do, be it that of this contact or of an earlier one.
         """
         (time, hold, lasting), course = times, self.courses[name]
-        # How much of its contacts at the start was before it.
-        ahead = np.maximum(self.ahead[name][which], lasting - hold)
-        self.ahead[name][which] = np.where(time == 0.0, ahead, 0.0)
+        # A slope pulls for what a contact at the start had of its time before it, too: what of that
+        # is still owed goes on.
+        owed, since, to = self.owed[name][:, which]
+        left = owed * np.clip((to - time) / np.where(to > since, to - since, 1.0), 0.0, 1.0)
+        more = np.maximum(left, lasting - hold)
         until = self.braked[name][1, which]
         longer = ~passed & (until - time > hold)
         own = np.where(longer, until - time, hold)
-        lasts = np.where(longer, own + self.ahead[name][which], lasting)
-        course.turn(which, time, own, state, tyres, during, lasts)
+        self.owed[name][:, which] = more, time, time + own
+        course.turn(which, time, own, state, tyres, during, own + more)
         # One that was followed in time has its own end.
         beyond = passed & (until > time + hold)
         if beyond.any():
