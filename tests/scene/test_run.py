@@ -798,6 +798,7 @@ def test_an_impact_that_gains_energy_is_said_wherever_the_run_is_shown() -> None
     assert found.sentence.startswith("the impact of A and B at 0 s ends with more energy than it")
     assert "ends with more energy than it began with" in str(single.summary())
     assert "ends with more energy than it began with" in col.play(single)
+    assert [one.code for one in col.diagnose(single)].count("energy_gain") == 1
     text = col.report(single, form="markdown")
     assert text.index("Energy gain of") < text.index("## Answer")
     assert "ends with more energy than it began with" in str(single.impacts[0].summary())

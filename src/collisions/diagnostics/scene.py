@@ -68,6 +68,8 @@ def diagnose_run(
             source=NOTE,
         )
         for notice in run._findings_in(units)
+        # The impact itself has that finding.
+        if notice.code != "energy_gain"
     ]
     return Findings(found, measured, units, Moves(moves, units))
 
