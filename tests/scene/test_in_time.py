@@ -453,15 +453,20 @@ def test_a_contact_at_the_moment_of_another_has_its_tyres_for_nothing() -> None:
     assert of_b == pytest.approx([0.0, 0.05 + 0.15 - 0.075, 0.15], abs=1e-6)
 
 
+def in_a_row(friction: float, *speeds: float) -> dict[str, Mover]:
+    """Three cars with locked wheels, 5 m from one to the next."""
+    return {
+        name: Mover(car(x=x, vx=vx), tyres=Tyres(friction, 1.0, 2.7, 1.5))
+        for name, x, vx in zip("ABC", (-5.0, 0.0, 5.0), speeds, strict=True)
+    }
+
+
 @pytest.mark.parametrize(("first", "second"), [(0.04, 0.1), (0.1, 0.04), (0.1, 0.1)])
 def test_contacts_about_one_moment_have_the_tyres_for_the_longest_together(
     first: float, second: float
 ) -> None:
     """Each has half of its time before it."""
-    movers = {
-        name: Mover(car(x=x, vx=vx), tyres=Tyres(0.8, 1.0, 2.7, 1.5))
-        for name, x, vx in (("A", -5.0, 14.0), ("B", 0.0, 6.0), ("C", 5.0, 0.0))
-    }
+    movers = in_a_row(0.8, 14.0, 6.0, 0.0)
     rule: dict[str, Any] = {"restitution": 0.1, "friction": 0.4, "normal": 0.0}
     rule["model"] = "eccentric"
     contacts = [
@@ -484,10 +489,7 @@ def test_tyres_do_not_act_again_before_the_longest_duration_has_passed(
     model: Any, duration: float | None, slope: float
 ) -> None:
     """B is struck for 0.2 s about time 0, and strikes C at 0.02 s, for less time or none."""
-    movers = {
-        name: Mover(car(x=x, vx=vx), tyres=Tyres(0.8, 1.0, 2.7, 1.5))
-        for name, x, vx in (("A", -5.0, 14.0), ("B", 0.0, 6.0), ("C", 5.0, 0.0))
-    }
+    movers = in_a_row(0.8, 14.0, 6.0, 0.0)
     rule: dict[str, Any] = {"restitution": 0.1, "friction": 0.4, "normal": 0.0}
     contacts = [
         Contact("A", "B", point=(-2.5, 0.0), duration=0.2, model="eccentric", **rule),
@@ -607,13 +609,10 @@ def test_an_impact_of_the_least_model_comes_back_from_its_record(tolerance: floa
 
 
 def test_tyres_in_a_contact_in_time_act_for_what_is_left_of_it_as_it_lasts() -> None:
-    """The contact of B and C lasts longer than the duration that is stated of it, as tyres act in
-    it: until its end they have had what the first took for 0.1 s more.
+    """The contact of B and C does not last exactly as long as is stated of it, because tyres act in
+    it. Those of B act for all of that time but the 0.08 s that the first contact had already.
     """
-    movers = {
-        name: Mover(car(x=x, vx=vx), tyres=Tyres(0.7, 1.0, 2.7, 1.5))
-        for name, x, vx in (("A", -5.0, 16.0), ("B", 0.0, 12.0), ("C", 5.0, 8.0))
-    }
+    movers = in_a_row(0.7, 16.0, 12.0, 8.0)
     rule: dict[str, Any] = {"restitution": 0.1, "friction": 0.4, "normal": 0.0}
     contacts = [
         Contact("A", "B", point=(-2.5, 0.0), duration=0.2, model="eccentric", **rule),
