@@ -335,6 +335,25 @@ def test_bare_stiffness_of_a_table_in_pounds_and_inches_is_suspected(vehicle):
     ]
 
 
+@pytest.mark.parametrize(
+    "stated",
+    [{"duration": "1.2 s"}, {"duration": np.array([1.2, 1.3])}, {"stiffness": "800 N/m"},
+     {"crush_a": ("800 N/m", "900 N/m**2", "60 m")}],
+)  # fmt: skip
+def test_again_suspects_no_number_that_has_its_unit(stated):
+    """It is the same number, with the unit that it was given with."""
+    car = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, vx=10.0, x=-2.0, y=0.0)
+    with warnings.catch_warnings(record=True) as first:
+        warnings.simplefilter("always")
+        impact = col.time_resolved(car, WALL, 0.1, **STRAIGHT, **stated, on_failure="nan")
+    with warnings.catch_warnings(record=True) as again:
+        warnings.simplefilter("always")
+        impact.again(restitution=0.2)
+    codes = [[one.message.code for one in caught] for caught in (first, again)]
+    bare = isinstance(stated.get("duration"), np.ndarray)
+    assert [found.count("suspect_units") for found in codes] == [bare, bare]
+
+
 # Fixed geometry without tyres: energetic restitution
 
 

@@ -25,7 +25,7 @@ from ..kernels.problem import Body, Contact, Problem
 from ..kernels.status import Answer
 from ..messages.errors import InputError
 from ..quantities.reading import ArgumentReader, amount
-from ..quantities.settings import in_si, units_required
+from ..quantities.settings import given_with_unit, in_si, units_required
 from .inputs import (
     ARGUMENTS,
     PINNED,
@@ -365,7 +365,7 @@ def read_again(inputs: Inputs, found: bool = False) -> Inputs:
         BRACH if inputs.law is None else inputs.law,
     )
     beside = (name for name in ARGUMENTS[inputs.model] if name not in _IN_ARGUMENTS)
-    with in_si():
+    with in_si(), given_with_unit(inputs.given or {}):
         again = _READERS[inputs.model](
             arguments, **{name: getattr(inputs, name) for name in beside}
         )

@@ -35,7 +35,7 @@ from ..messages.errors import (
 from ..messages.marked import a_type_of, as_code, type_of
 from ..messages.warning import warn
 from .refusals import must_be
-from .settings import Default, units_required
+from .settings import Default, had_unit, units_required
 from .units import (
     Texts,
     example,
@@ -274,7 +274,7 @@ def warn_if_large(
     units.
     """
     worst = _farthest(read)
-    if limit < abs(worst) < math.inf and not has_unit(given):
+    if limit < abs(worst) < math.inf and not (has_unit(given) or had_unit(argument)):
         _warn_of_size(worst, np.abs(read) > limit, "large", argument, meaning, units)
 
 
@@ -285,7 +285,7 @@ def warn_if_small(
     these units.
     """
     small = np.greater(read, 0.0) & np.less(read, limit)
-    if np.any(small) and not has_unit(given):
+    if np.any(small) and not (has_unit(given) or had_unit(argument)):
         least = float(np.min(read, where=small, initial=limit))
         _warn_of_size(least, small, "small", argument, meaning, units)
 
@@ -553,7 +553,7 @@ def _warn_if_implausible(value: Any, unit: str, argument: str) -> None:
     if limit is None:
         return
     worst = _farthest(value)
-    if abs(worst) > limit and not math.isinf(worst):
+    if abs(worst) > limit and not math.isinf(worst) and not had_unit(argument):
         degrees = "deg" if unit == "rad" else "deg/s"
         warn(
             SuspectUnitsWarning(

@@ -4,7 +4,7 @@ task only.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from contextvars import ContextVar
 from functools import wraps
@@ -17,6 +17,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 units_required: ContextVar[bool] = ContextVar("units_required", default=False)
 _callers: ContextVar[bool] = ContextVar("_callers", default=False)
+_with_unit: ContextVar[Collection[str]] = ContextVar("_with_unit", default=())
 
 
 class Default(float):
@@ -78,8 +79,20 @@ def callers_options() -> AbstractContextManager[None]:
     return _set(units_required, _callers.get())
 
 
+def given_with_unit(arguments: Collection[str]) -> AbstractContextManager[None]:
+    """Within this context numbers of these arguments were given with a unit: they are read again,
+    and no other unit may have been meant.
+    """
+    return _set(_with_unit, arguments)
+
+
+def had_unit(argument: str) -> bool:
+    """Whether this argument is one of ``given_with_unit``."""
+    return argument in _with_unit.get()
+
+
 @contextmanager
-def _set(variable: ContextVar[bool], value: bool) -> Iterator[None]:
+def _set(variable: ContextVar[Any], value: Any) -> Iterator[None]:
     token = variable.set(value)
     try:
         yield
