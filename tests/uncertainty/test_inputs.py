@@ -735,6 +735,9 @@ def test_units_are_read_once():
     assert Normal("40 percent", "5 percent").mean == pytest.approx(0.4, rel=EPS)
     assert Normal("0.4", 0.05) == Normal(0.4, "0.05")
     assert Normal("1500 kg", "50 kg", truncate=(0, None)).truncate == (0.0, None)
+    for low, high in ((-math.inf, "1800 kg"), ("-inf", "1800 kg")):
+        opened = Normal("1500 kg", "50 kg", truncate=(low, high))
+        assert opened == Normal("1500 kg", "50 kg", truncate=(None, high))
     assert Uniform(0, "5 km/h").unit == "m/s"
     assert LogNormal("700 kN/m", "200 kN/m").mean == 700e3
     assert Normal(20, 1).unit == ""
@@ -784,8 +787,8 @@ BIG = 1.7e308
         (lambda: Normal(1, 1, truncate=0), col.ShapeError, "bad_shape",
             "pair (low, high), where None leaves a side open, got 0"),
         (lambda: Normal(1, 1, truncate=(0, 1, 2)), col.ShapeError, "bad_shape", "pair (low, high)"),
-        (lambda: Normal(1, 1, truncate=(0, INF)), col.InputError, "not_finite",
-            "truncate[1] must be finite, got inf; write None for an end that is open"),
+        (lambda: Normal(1, 1, truncate=(INF, None)), col.InputError, "not_finite",
+            "truncate[0] must be finite, got inf; write None for an end that is open"),
         (lambda: Normal("1 m", "1 m", truncate=("-inf m", None)), col.InputError, "not_finite",
             "truncate[0] must be finite, got '-inf m'; write None"),
         (lambda: Normal("10 mph", "1 mph", truncate=("0 mph", "20 m")), col.UnitsError,

@@ -456,20 +456,6 @@ def parse_uncertain(text: str, bounds: Callable[[str, str], Any] = uncertainty.U
     return uncertainty.Normal.between(low, high, coverage)
 
 
-def _open_ended(name: str, value: Any) -> Any:
-    """A value of a distribution; an infinite end of a truncation, which a file can write, becomes
-    an open one.
-    """
-    ends = value if name == "truncate" and isinstance(value, tuple) and len(value) == 2 else None
-    return (
-        tuple(
-            None if end == side * math.inf else end for end, side in zip(ends, (-1, 1), strict=True)
-        )
-        if ends
-        else value
-    )
-
-
 def _with_values(node: Any, values: Mapping[str, Any]) -> Any:
     if isinstance(node, Uncertain):
         if node.key not in values:
@@ -736,7 +722,7 @@ class Reader:
                 )
                 self.refuse(f"{key}.{name}", f"is missing; give it: {what}{such}")
         read = {
-            name: _open_ended(name, value)
+            name: value
             if plain
             else self.value(f"{key}.{name}", value, str(takes[name].annotation))
             for name, value in given.items()

@@ -202,6 +202,13 @@ for _label in "ab":
         f"max_crush_speed_{_label}": Known(f"speed of maximum crush{_of}", "speed", "", _speeds),
     }
 
+# What stands with the reconstruction itself, by the name under which it was known.
+OF_CONTACT = {
+    name: one.path.removeprefix("reconstruction.")
+    for name, one in KNOWN.items()
+    if one.path.startswith("reconstruction.")
+}
+
 
 def number_of_text(text: str, name: str) -> float | None:
     """The number [SI] of a text that a reverse solver was given; None if it cannot be read, as its

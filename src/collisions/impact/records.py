@@ -33,6 +33,7 @@ from .models import read_again
 from .pulse import CURVES, Pulse
 from .reconstruction import (
     KNOWN,
+    OF_CONTACT,
     AsRecorded,
     Reconstruction,
     number_beside,
@@ -311,10 +312,21 @@ def _origin(found: Any, velocity: Any) -> Reconstruction | None:
         found=tuple(str(name) for name in found["found"]),
         given=_given_numbers(found["given"]),
         **{
-            name: read_only(read_strict(found.get(name)))
-            for name in ("duration", "drag_a", "drag_b")
+            name: _number_if_known(found.get(name), name, known_as in known)
+            for known_as, name in OF_CONTACT.items()
         },
     )
+
+
+def _number_if_known(found: Any, name: str, known: bool) -> Any:
+    """What was known of a contact with a duration, a number or a batch; None where it was not."""
+    number = read_strict(found)
+    if not (isinstance(number, np.ndarray) or _is_number(number) if known else number is None):
+        raise bad_record(
+            f"{name} of its reconstruction is {shown(found)}, and is {'' if known else 'not '}"
+            "among what was known"
+        )
+    return read_only(number)
 
 
 def _given_numbers(found: Any) -> dict[str, Any]:

@@ -15,7 +15,13 @@ import numpy as np
 
 from ..impact.impact import Impact
 from ..impact.inputs import TYRES
-from ..impact.reconstruction import KNOWN, AsRecorded, Reconstruction, known_in_words
+from ..impact.reconstruction import (
+    KNOWN,
+    OF_CONTACT,
+    AsRecorded,
+    Reconstruction,
+    known_in_words,
+)
 from ..kernels.contact_laws import BRACH, FRICTION, RULES
 from ..messages.errors import CollisionsError, CollisionsWarning, InputError
 from ..quantities.settings import in_si
@@ -120,7 +126,7 @@ def contradicted_origin(impact: Impact) -> Iterator[str]:
             f"its reconstruction was given {', '.join(origin.known)}, and solving again takes "
             f"{', '.join(again.known)}"
         )
-    for name in ("duration", "drag_a", "drag_b"):
+    for name in OF_CONTACT.values():
         stands, found_with = getattr(origin, name), getattr(again, name)
         if stands != found_with:
             yield (

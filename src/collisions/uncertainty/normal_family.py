@@ -248,9 +248,9 @@ class Normal(NormalFamily):
     mean, sd : float, str or Quantity
         Mean and standard deviation before truncation; ``sd`` > 0. SI, or all with a unit.
     truncate : tuple (low, high), optional
-        Bounds of what is physically possible; None leaves a side open. The attributes ``mean`` and
-        ``sd`` are those of the part that is kept, ``given_mean`` and ``given_sd`` those of the
-        whole.
+        Bounds of what is physically possible; None or an infinity leaves a side open. The
+        attributes ``mean`` and ``sd`` are those of the part that is kept, ``given_mean`` and
+        ``given_sd`` those of the whole.
 
     Raises
     ------
@@ -300,7 +300,7 @@ class LogNormal(NormalFamily):
         Mean and standard deviation of the quantity itself, not of its logarithm, before truncation;
         both > 0.
     truncate : tuple (low, high), optional
-        Bounds of what is physically possible; None leaves a side open.
+        Bounds of what is physically possible; None or an infinity leaves a side open.
 
     Raises
     ------
@@ -422,10 +422,12 @@ def _read(
             code="bad_shape",
             kind=ShapeError,
         )
-    (one, other, *bounds), unit = read_alike(
-        needed, {f"truncate[{i}]": bound for i, bound in enumerate(truncate)}
-    )
-    return one, other, None if bounds == [None, None] else tuple(bounds), unit
+    bounds = {
+        f"truncate[{i}]": None if str(bound) == infinity else bound
+        for i, (bound, infinity) in enumerate(zip(truncate, ("-inf", "inf"), strict=True))
+    }
+    (one, other, *ends), unit = read_alike(needed, bounds)
+    return one, other, None if ends == [None, None] else tuple(ends), unit
 
 
 def _check_positive(name: str, value: float) -> None:
