@@ -33,6 +33,7 @@ from collisions.cases.schema import case_schema
 from collisions.cases.words import DISTRIBUTIONS, in_file_words
 from collisions.reporting import replay
 from collisions.uncertainty import Interval, Normal, Triangular, Uniform, propagate
+from fuzzing import _promptly
 
 ROOT = Path(__file__).parents[2]
 CASES = ROOT / "examples" / "cases"
@@ -907,12 +908,13 @@ def test_the_text_is_that_of_any_editor():
 @pytest.mark.parametrize("text", ["x = {}{}", "{} = 1", "[{}]\nx = 1"])
 def test_what_is_nested_too_deeply_is_refused(text):
     """Lists in lists, and keys and heads of tables of many parts; fewer than here are read by some
-    versions of Python.
+    versions of Python. A file of any length is refused at once.
     """
-    depth = 3000
-    parts = ("[" * depth, "]" * depth) if "{}{}" in text else (".".join("a" * depth),)
-    with pytest.raises(CaseError, match="is nested too deeply"):
-        read_text(text.format(*parts).encode())
+    for depth in (3000, 450_000):
+        key = [".".join(part * depth) for part in ("a", ["'a'"])]
+        for parts in [("[" * depth, "]" * depth)] if "{}{}" in text else [(one,) for one in key]:
+            with pytest.raises(CaseError, match=r"nested too deeply|larger than 1 MB"), _promptly():
+                read_text(text.format(*parts).encode())
 
 
 @pytest.mark.parametrize(
