@@ -1230,7 +1230,11 @@ def test_pictures():
         ({"stiffness": 1e6}, "one_stiffness", "got duration and stiffness"),
         ({"crush_a": (6e4, 7e5, 1.0)}, "one_stiffness", "duration and crush_a"),
         ({"duration": 0.0}, "not_positive", "must be > 0"),
-        ({"duration": -0.1}, "negative_duration", "touching to parting"),
+        (
+            {"duration": -0.1},
+            "negative_duration",
+            "duration must be > 0, got -0.1; it is the time from touching to parting",
+        ),
         ({"duration": math.inf}, "not_finite", "duration must be finite"),
         ({"duration": None, "stiffness": 0.0}, "not_positive", "stiffness"),
         ({"duration": None, "stiffness": "1 kN"}, "bad_units", "stiffness"),

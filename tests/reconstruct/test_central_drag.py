@@ -287,7 +287,7 @@ def test_a_barrier_is_not_slowed():
         ({"drag_b": 0.7}, "bad_combination", "need a duration"),
         ({"duration": 0.1}, "bad_combination", "duration counts for drag_a and drag_b alone"),
         ({"duration": 0.0, "drag_a": 0.7}, "not_positive", "duration must be > 0"),
-        ({"duration": -0.1, "drag_a": 0.7}, "negative_duration", "duration"),
+        ({"duration": -0.1, "drag_a": 0.7}, "negative_duration", "duration must be > 0"),
         ({"duration": 0.1, "drag_b": 0.7, "vb": -8.0}, "contradictory", "from B towards A"),
     ],
 )

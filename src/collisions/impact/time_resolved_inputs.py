@@ -207,13 +207,9 @@ def read_times(reader: ArgumentReader, extra: dict[str, Any]) -> dict[str, Any]:
         if name == "drag":
             found[name] = read_drag(reader, value, name)
         elif name == "duration":
-            found[name] = read_duration(reader, value)
-            if isinstance(found[name], float) and found[name] == 0.0:
-                text = (
-                    f"duration must be > 0, got {shown(value)}; a contact that takes no time is "
-                    "eccentric's"
-                )
-                reader.refuse(InputError(text, code="not_positive", argument=name))
+            found[name] = read_duration(
+                reader, value, "a contact that takes no time is eccentric's"
+            )
         elif name.startswith("crush"):
             found[name] = _read_crush(reader, value, name)
         else:

@@ -32,7 +32,7 @@ from ..messages.warning import quietly, state_of_study, warn_of_cases
 from ..quantities.attributes import read_only
 from ..quantities.precision import precision
 from ..quantities.reading import ArgumentReader, amount, broadcast
-from ..quantities.units import Texts, shown
+from ..quantities.units import Texts
 from ..vehicle.drag import GRAVITY, read_drag, read_duration
 from ..vehicle.tyres import lacking
 from ..vehicle.vehicle import Vehicle
@@ -145,10 +145,7 @@ def read_drags(reader: ArgumentReader, duration: Any, drags: dict[str, Any]) -> 
         reader.refuse(MissingInputError(text, code="bad_combination", argument=lacking))
     if duration is None or not given:
         return {}
-    found = {"duration": read_duration(reader, duration)}
-    if isinstance(found["duration"], float) and found["duration"] == 0.0:
-        text = f"duration must be > 0, got {shown(duration)}; leave it and the drags out instead"
-        reader.refuse(InputError(text, code="not_positive", argument="duration"))
+    found = {"duration": read_duration(reader, duration, "leave it and the drags out instead")}
     return found | {name: read_drag(reader, drag, name) for name, drag in given.items()}
 
 

@@ -118,16 +118,18 @@ def _factor_or_deceleration(reader: ArgumentReader, value: Any, name: str) -> An
     )
 
 
-def read_duration(reader: ArgumentReader, duration: Any) -> Any:
-    """The duration of the contact, with a warning if a bare number is longer than any contact."""
+def read_duration(reader: ArgumentReader, duration: Any, instead_of_zero: str = "") -> Any:
+    """The duration of the contact, with a warning if a bare number is longer than any contact;
+    0 is refused where it says what to write ``instead_of_zero``.
+    """
     read = one_value(reader, duration, "s", "duration")
-    read = at_least_zero(
-        reader,
-        read,
-        duration,
-        "duration",
-        "negative_duration",
-        "it is the time from touching to parting",
-    )
+    if isinstance(read, float) and (read < 0.0 or (instead_of_zero and read == 0.0)):
+        allowed = "> 0" if instead_of_zero else ">= 0"
+        code, hint = (
+            ("negative_duration", "it is the time from touching to parting")
+            if read < 0.0
+            else ("not_positive", instead_of_zero)
+        )
+        read = reader.refuse(must_be("duration", allowed, duration, f"; {hint}", code=code))
     warn_if_large(duration, read, LONGEST_CONTACT, "duration", "seconds", "ms")
     return read
