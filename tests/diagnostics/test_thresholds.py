@@ -715,6 +715,14 @@ def unequal_impulses(share):
     )
 
 
+def exchanged(read, closing):
+    """What two equal cars show that close with so much of the speed of the slower, and exchange
+    their speeds.
+    """
+    fast, slow = col.Vehicle(mass=1500.0, vx=1.0 + closing), col.Vehicle(mass=1500.0, vx=1.0)
+    return read(fast, slow, slow, fast, normal=0.0)
+
+
 def separating_slowly(condition):
     """The separation is the difference of two velocities of 10 m/s, so their sum over it is this
     condition.
@@ -1011,6 +1019,10 @@ WARNINGS = [
         course_b_after="90 deg", speed_b_after=10.0 * math.cos(x)),
         below=True),
     Warned("separation after, of rounding", 1e6, CONDITION, "ill_conditioned", separating_slowly),
+    Warned("speeds over the closing speed", 1e6, CONDITION, "ill_conditioned",
+        lambda x: exchanged(reconstruct.restitution, 4.0 / (x - 2.0))),
+    Warned("momenta over the impulse", 1e6, CONDITION, "ill_conditioned",
+        lambda x: exchanged(reconstruct.friction, 2.0 / (x - 1.0))),
     Warned("impulses of A and B", 0.1, CONDITION, "momentum_mismatch", unequal_impulses),
     Warned("slip after of a slide", 0.05, CONDITION, "nearly_sticking", nearly_stuck, below=True),
     Warned("ratio of a contact stated to stick", 0.3, CONDITION, "may_slide", stated_to_stick),

@@ -315,7 +315,7 @@ def _answer(
         found, which, np.where(ambiguous, len(candidates), 1), np.equal(status, Status.OK)
     )
     impact = finish(partial(inputs_of, found), status, origin, on_failure, refusal, solve_case)
-    warn_of_condition(origin)
+    warn_of_condition(origin.condition, " and ".join(origin.known))
     if not held:
         wheels = "`drag_a=` and `drag_b=`, where A runs into the rear of B"
         state_instant("central", f"`duration=`, {wheels}")

@@ -370,17 +370,18 @@ def finish(
     return found
 
 
-def warn_of_condition(origin: Reconstruction) -> None:
-    """Warn where the speeds before rest on digits that no measurement has."""
-    ill = np.asarray(origin.condition) > _ILL_CONDITIONED
+def warn_of_condition(
+    condition: Any,
+    known: str,
+    moves: str = "the speeds before by more than the closing speed",
+    cure: str = "give another known value in place of one of these",
+) -> None:
+    """Warn where what was found rests on digits of what is known that no measurement has."""
+    ill = np.asarray(condition) > _ILL_CONDITIONED
     if not np.any(ill):
         return
-    worst = float(np.max(np.where(ill, origin.condition, 0.0)))
-    why = (
-        "a change of a millionth of what is known may move the speeds before by more than the "
-        "closing speed; give another known value in place of one of these"
-    )
-    known = " and ".join(origin.known)
+    worst = float(np.max(np.where(ill, condition, 0.0)))
+    why = f"a change of a millionth of what is known may move {moves}; {cure}"
     of = f"{np.count_nonzero(ill)} of {ill.size} cases: " if ill.ndim else ""
     text = f"{of}the condition of {known} is {worst:.3g}: {why}"
     sentence = f"the condition of {known} is above {_ILL_CONDITIONED:.0e}: {why}"

@@ -25,7 +25,7 @@ from ..messages.warning import warn
 from ..quantities.tables import Sentences
 from ..quantities.units import Input, Pair, Value, texts_of
 from ..vehicle.vehicle import Vehicle, needed, not_a_vehicle, numbers_of, without_turning
-from .common import ASK_ALONE, NUMBERS, Cases, forward, input_faults
+from .common import ASK_ALONE, NUMBERS, Cases, forward, input_faults, warn_of_condition
 
 _MISMATCH = 0.1  # of the impulse: more than measured yaw rates and speeds explain
 # By an impulse, with the kind of each.
@@ -88,6 +88,8 @@ def restitution(
     OutOfRangeWarning
         Below 0: the contact points went on approaching, an incomplete impact. Above 1: they parted
         faster than they met.
+    IllConditionedWarning
+        The closing speed is below a millionth of the speeds, which cancel in it.
 
     Examples
     --------
@@ -110,12 +112,14 @@ def restitution(
         status = cases.first_status((*faults, (cases.beyond(found), Status.OUT_OF_RANGE)))
         _check(cases, status, before, _as_given(bodies))
         answer = np.where(np.equal(status, Status.OK), found, np.nan)
+        condition = (before.speeds + after.speeds) / closing
         # The velocities themselves are rounded, so an e of exactly 0 or 1 may come out slightly
         # outside.
-        error = 4.0 * cases.eps * (before.speeds + after.speeds) / closing
+        error = 4.0 * cases.eps * condition
         below, above = answer < -error, answer > 1.0 + error
     if np.any(below | above):
         _warn_of_restitution(answer, below, above, cases.shape is not None)
+    _warn_if_cancelled(cases, condition, answer, "the restitution by more than 1")
     observed: Value = cases.values(answer)
     return observed
 
@@ -165,6 +169,7 @@ def friction(
     -----
     IllConditionedWarning
         The impulses of A and B differ by more than a tenth: momentum is not conserved in the data.
+        Or the impulse is below a millionth of the momenta, which cancel in it.
 
     Examples
     --------
@@ -221,6 +226,14 @@ def friction(
             cases.each(mismatched),
             f"{what} more than {_MISMATCH:.0%}: {cure}",
         )
+    with np.errstate(all="ignore"):
+        # What the impulses are differences of, beside what is left of them.
+        sizes = [
+            sum(abs(moment[name]) for moment in moments for name in ("vx", "vy")) / mass
+            for moments, mass in (((before.a, after.a), mass_a), ((before.b, after.b), mass_b))
+        ]
+        condition = (sizes[0] + sizes[1]) / normal_part
+    _warn_if_cancelled(cases, condition, ratio, "the friction by more than 1")
     observed: Value = cases.values(ratio)
     return observed
 
@@ -405,6 +418,17 @@ def _warn_of_restitution(answer: Any, below: Any, above: Any, batch: bool) -> No
         np.logical_or(below, above),
         f"the observed restitution is outside 0 to 1. Below 0, {_STILL_APPROACH}; above 1, "
         f"{_PART_FASTER}",
+    )
+
+
+def _warn_if_cancelled(cases: Cases, condition: Any, answer: Any, moves: str) -> None:
+    """Warn where velocities so nearly cancel that the answer rests on their last digits."""
+    where = np.where(np.isfinite(answer), condition, 0.0)
+    warn_of_condition(
+        where if cases.shape is not None else float(where),
+        "the velocities",
+        moves,
+        "these motions do not show an impact",
     )
 
 
