@@ -180,6 +180,7 @@ def test_one_observation_and_one_prior_by_hand():
     with pytest.warns(col.CollisionsWarning, match="contradicts itself") as given:
         found = fit(lambda v: {"v": v}, {"v": Normal(20, 1)}, {"v": (10, 0.5)})
     assert given[0].message.code == "contradictory"
+    assert "the furthest off is the prior of v, by 8 sigma" in str(given[0].message)
     assert found["v"].value == pytest.approx(12.0, abs=1e-8)
     assert found["v"].standard_error == pytest.approx(math.sqrt(0.2), rel=1e-9)
     assert found.contributions["v"] == pytest.approx({"v": 0.8, "prior of v": 0.2}, abs=1e-9)

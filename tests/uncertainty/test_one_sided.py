@@ -5,6 +5,7 @@ figures that then do not exist.
 import json
 import math
 import pickle
+import re
 import warnings
 
 import matplotlib.pyplot as plt
@@ -155,7 +156,7 @@ def test_what_does_not_exist_is_not_given():
     assert record["at_least"] == pytest.approx(0.5, abs=2e-3)
     assert record["at_most"] == 0.0
     (statement,) = result.statements
-    assert "sided is known from one side only in 50 % of the cases, as at least" in statement
+    assert "in 50 % of the cases sided is known from one side only, as at least" in statement
     assert "reconstruct.posterior with a prior for it has two sides" in statement
     again = pickle.loads(pickle.dumps(result))["sided"]
     assert again.interval() == found.interval()
@@ -186,7 +187,7 @@ def test_a_report_has_the_range():
     known = {"speed_a": Normal(15.0, 0.5)}
     page = col.report(impact, uncertainty=propagate(model, known, **OPTIONS), form="markdown")
     assert "at least 14.04 m/s, 97.5 %" in page
-    assert "is known from one side only in 100 %" in page
+    assert re.search("n 100 % of the cases .* known from one side only", page)
 
 
 def test_cases_without_an_answer_are_left_out():

@@ -215,8 +215,8 @@ def one_sided_notes(outputs: Mapping[str, Output]) -> Iterator[Note]:
             if share > 0.0:
                 yield Note(
                     None,
-                    f"{name} is known from one side only in {in_percent(share, 1.0)} of the "
-                    f"cases, as {word} its value: the {end} end of a range is infinite where "
+                    f"in {in_percent(share, 1.0)} of the cases {name} is known from one side "
+                    f"only, as {word} its value: the {end} end of a range is infinite where "
                     "these decide it, and mean and standard deviation do not exist. "
                     "`reconstruct.posterior` with a prior for it has two sides",
                     code="one_sided",
