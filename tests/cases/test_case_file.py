@@ -409,8 +409,12 @@ def test_posterior_of_what_was_observed():
     censored = text.replace('"15 m/s .. 20 m/s"', '{ Censored = { high = "20 m/s" } }')
     found = solved(censored)["a.vx"]
     assert abs(found.mean - wanted) < 5 * found.mean_standard_error
-    assert "a.vx" in answers(read_text(text.encode())).text()
-    assert json.dumps(answers(read_text(text.encode())).to_dict(), allow_nan=False)
+    found = answers(read_text(text.encode()))
+    assert "a.vx" in found.text()
+    (record,) = found.to_dict()["results"]
+    assert json.dumps(record, allow_nan=False)
+    # As at the end of its report.
+    assert record.keys() == {"format", "version", "options", "posterior"}
 
 
 @pytest.mark.slow

@@ -126,6 +126,45 @@ def forward(rng):
     return impact, known
 
 
+def test_the_pdof_is_that_of_the_contact_without_the_tyres():
+    """What the contact does to A it does to B the other way (Newton's third law); and it comes from
+    where it comes forward.
+    """
+    rng = random.Random(3901)
+    misses, of_delta_v = [], []
+    for _ in range(12):
+        impact, known = forward(rng)
+        answer = reconstruct.momentum(**known)
+        on_a, on_b = (
+            getattr(answer, f"heading_{label}") - getattr(answer, f"pdof_{label}") for label in "ab"
+        )
+        assert abs(math.remainder(on_a - on_b, math.tau)) == pytest.approx(math.pi, abs=1e-9)
+        for label, side in (("a", impact.a), ("b", impact.b)):
+            found_from = getattr(answer, f"pdof_{label}")
+            misses.append(abs(math.remainder(found_from - side.pdof, math.tau)))
+            changed = math.atan2(-side.delta_v_left, side.delta_v_forward) + math.pi
+            of_delta_v.append(abs(math.remainder(changed - side.pdof, math.tau)))
+    assert np.median(misses) < 0.2 * np.median(of_delta_v)
+
+
+def test_the_pdof_with_an_impulse_from_outside_says_what_is_in_it():
+    said = "the PDOF of each is the direction of its whole delta-V"
+    pushed = found(outside_impulse=(500.0, -300.0))
+    assert [said in one for one in pushed.statements].count(True) == 1
+    without = {name: value for name, value in CROSSED.items() if "heading" not in name}
+    for answer in (
+        found(),
+        reconstruct.momentum(**MASSES, **without, outside_impulse=(500.0, -300.0)),
+    ):
+        assert not any(said in one for one in answer.statements)
+    for text in (
+        explain(pushed, form="text"),
+        str(pushed.summary()),
+        col.report(pushed, form="markdown", figures=False),
+    ):
+        assert said in " ".join(text.split())
+
+
 @pytest.mark.slow
 def test_the_forward_answer_is_found_again():
     """The forward solver takes the force from the motions of an impact without tyres, this one from

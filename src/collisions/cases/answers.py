@@ -26,7 +26,7 @@ from ..quantities.attributes import missing_error, unit_of
 from ..quantities.formatting import percent
 from ..quantities.tables import given_texts, spoken_system
 from ..quantities.units import rendered, to_quantity
-from ..reconstruct import MomentumSolution, Posterior
+from ..reconstruct import MomentumSolution
 from ..reporting import report
 from ..reporting.checking import inputs_of
 from ..reporting.play import play
@@ -180,12 +180,7 @@ class Answers:
         """Everything in plain values for other tools: each result as the record at the end of a
         report.
         """
-        results = [
-            result.to_dict()
-            if isinstance(result, Posterior)
-            else json.loads(record(result, {}, self.propagation))
-            for result in self.results
-        ]
+        results = [json.loads(record(result, {}, self.propagation)) for result in self.results]
         ranges = (
             None
             if self.propagation is None

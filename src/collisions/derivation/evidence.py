@@ -83,10 +83,13 @@ class _Momenta:
             whence = "An impulse from outside was stated"
             yield whence, Symbol(f"J_{axis}", stated, "impulse")
         for label in self.solution.tyres:
-            of = label.upper()
-            found = getattr(self.solution, f"tyre_impulse_{axis}_{label}")
-            whence = f"The tyres of {of} give an impulse while the contact lasts"
-            yield whence, Symbol(rf"J_{{{of}{axis}}}", found, "impulse")
+            whence = f"The tyres of {label.upper()} give an impulse while the contact lasts"
+            yield whence, self.push_of_tyres(axis, label)
+
+    def push_of_tyres(self, axis: str, label: str) -> Symbol:
+        """The impulse of the tyres of a vehicle along an axis."""
+        found = getattr(self.solution, f"tyre_impulse_{axis}_{label}")
+        return Symbol(rf"J_{{{label.upper()}{axis}}}", found, "impulse")
 
     def along(self, name: str, function: str, axis: Expression = ZERO) -> Expression:
         """The component of a velocity along x, or along an axis at another angle."""
@@ -392,12 +395,21 @@ def _delta_v(page: Page, m: _Momenta, label: str) -> None:
     size = getattr(m.solution, f"delta_v_{label}")
     page.equation(f"Delta-V of {name} (definition)", delta_v(name, "", size), magnitude(x, y))
     heading, found = getattr(m.solution, f"heading_{label}"), getattr(m.solution, f"pdof_{label}")
-    if heading is not None and not math.isnan(found):
-        caption, direction = (
-            f"Direction of the delta-V of {name} (definition)",
-            math.atan2(y.value + 0.0, x.value),
+    if heading is None or math.isnan(found):
+        return
+    caption, pushed = f"Direction of the delta-V of {name} (definition)", list[Expression](parts)
+    if label in m.solution.tyres:
+        caption = (
+            f"Direction of the impulse of the contact on {name}: its change of momentum without "
+            "the impulse of its tyres (definition)"
         )
-        pdof(page, name, caption, direction, Direction(x, y), heading, found)
+        pushed = [
+            m.mass[label] * change - m.push_of_tyres(axis, label)
+            for axis, change in zip("xy", parts, strict=True)
+        ]
+    along, across = pushed
+    direction = math.atan2(across.value + 0.0, along.value)
+    pdof(page, name, caption, direction, Direction(along, across), heading, found)
 
 
 def _along_normal(page: Page, m: _Momenta, normal_angle: float) -> None:

@@ -597,8 +597,7 @@ def agreement(
             f"{chance}",
         )
     off = {
-        f"the {name}" if one.is_prior else name: one.over_sigma
-        for name, one in residuals.items()
+        f"the {name}" if one.is_prior else name: one.over_sigma for name, one in residuals.items()
     } | {**apart}
     name, worst = max(off.items(), key=lambda item: abs(item[1]))
     return Note(

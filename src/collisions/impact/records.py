@@ -326,7 +326,7 @@ def _number_if_known(found: Any, name: str, known: bool) -> Any:
             f"{name} of its reconstruction is {shown(found)}, and is {'' if known else 'not '}"
             "among what was known"
         )
-    return read_only(number)
+    return float(number) if _is_number(number) else read_only(number)
 
 
 def _given_numbers(found: Any) -> dict[str, Any]:

@@ -5,7 +5,7 @@ masses and the other courses and speeds.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from functools import reduce
 from typing import Any, NamedTuple
@@ -151,9 +151,11 @@ def momentum(
         the angle between the courses of the unknown speeds (1 at right angles), and the
         ``sensitivity`` of each answer to each input. With a speed and its course unknown the
         condition is the sum of the other momenta over what they leave; with the course of another,
-        (1 + abs(sin)) / abs(cos) of the angle between the two. With tyres, delta-V and the energy
-        lost have their part in them, ``tyre_impulse_x_a`` and so on say which impulse that was, and
-        the sensitivities are those with that impulse as it is.
+        (1 + abs(sin)) / abs(cos) of the angle between the two. With tyres, delta-V, the
+        restitution and the energy lost have their part in them, and the PDOF, which is that of the
+        contact, has not; ``tyre_impulse_x_a`` and so on say which impulse that was, and the
+        sensitivities are those with that impulse as it is. An ``outside_impulse`` stands for both
+        vehicles, so the part of each is not known: it is in its delta-V and in its PDOF.
 
     Raises
     ------
@@ -595,7 +597,7 @@ def _solve(known: _Known, given: dict[str, Any] | None, on_failure: Any) -> Mome
                 Status.PARALLEL_HEADINGS,
             )
         ]
-    outcome = _outcome(known, speeds)
+    outcome = _outcome(known, speeds, tyres)
     lighter = np.minimum(*masses)
     loss = outcome["translational_energy_loss"]
     sizes = [abs(speeds[name]) for name in _SPEEDS]
@@ -757,8 +759,10 @@ def _refusal(status: Status, first: str, second: str, unsettled: bool) -> Collis
     return InputError(f"momentum: {why}", code=status.label)
 
 
-def _outcome(known: _Known, speeds: dict[str, Any]) -> dict[str, Any]:
-    """The solution from all speeds and courses."""
+def _outcome(
+    known: _Known, speeds: dict[str, Any], tyres: Mapping[str, tuple[Any, Any]]
+) -> dict[str, Any]:
+    """The solution from all speeds and courses, and the impulses of the ``tyres`` by vehicle."""
     velocity = known.velocities(speeds)
     found: dict[str, Any] = {}
     loss: Any = 0.0
@@ -766,9 +770,15 @@ def _outcome(known: _Known, speeds: dict[str, Any]) -> dict[str, Any]:
         (ux, uy), (wx, wy) = velocity[f"speed_{side}"], velocity[f"speed_{side}_after"]
         dx, dy = wx - ux, wy - uy
         found[f"delta_v_{side}"] = hypot(dx, dy)
-        loss = loss - 0.5 * known.numbers[f"mass_{side}"] * (dx * (ux + wx) + dy * (uy + wy))
+        mass = known.numbers[f"mass_{side}"]
+        loss = loss - 0.5 * mass * (dx * (ux + wx) + dy * (uy + wy))
         if f"heading_{side}" in known.angles:
             hx, hy = known.angles[f"heading_{side}"].direction
+            if side in tyres:
+                # The force is that of the contact, without what the tyres do.
+                dx, dy = (
+                    change - push / mass for change, push in zip((dx, dy), tyres[side], strict=True)
+                )
             found[f"pdof_{side}"] = angle_of(-(hx * dx + hy * dy), hx * dy - hy * dx)
     found["translational_energy_loss"] = loss
     if known.normal is not None:

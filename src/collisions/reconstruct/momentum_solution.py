@@ -40,6 +40,10 @@ _NEEDED = {
     "restitution": "normal",
     **{f"tyre_impulse_{axis}_{label}": f"tyres_{label}" for label in "ab" for axis in "xy"},
 }
+_WITH_OUTSIDE = (
+    "the impulse from outside is that on both vehicles together: the PDOF of each is the direction "
+    "of its whole delta-V, with its part of that impulse, and not that of the contact alone"
+)
 _SENSITIVITY_UNITS = {"mass": "kg", "speed": "(m/s)", "course": "deg", "outside": "(N*s)"}
 
 
@@ -178,8 +182,8 @@ class MomentumSolution(Shown):
     def statements(self) -> tuple[str, ...]:
         """What has to be said beside the numbers: without tyres, or without those of one vehicle,
         by how much the speeds would differ if these wheels slid for 0.1 s, or the duration given,
-        with a drag of 0.7; with them, which other velocities fit too, or that others may and were
-        not looked for.
+        with a drag of 0.7; that an impulse from outside is part of a PDOF; with tyres, which other
+        velocities fit too, or that others may and were not looked for.
         """
         return self._stated_in(None)
 
@@ -187,13 +191,18 @@ class MomentumSolution(Shown):
         """The statements with their numbers in a system of units, by default that of the inputs."""
         say = Sentences(self._texts(), units)
         found = neglected(self, float(USUAL_DURATION), 0.7, lambda value, kind: say(value, kind, 2))
-        said = () if found is None else (found.sentence,)
+        said = self._pushed() if found is None else (found.sentence, *self._pushed())
         if not self.tyres:
             return said
         other = other_velocity(self)
         if other is not None:
             return *said, other.sentence(self, say)
         return (*said, self._not_looked_for()) if self._may_have_others() else said
+
+    def _pushed(self) -> tuple[str, ...]:
+        """That an impulse from outside is part of a PDOF, in a sentence."""
+        has_pdof = self.pdof_a is not None or self.pdof_b is not None
+        return (_WITH_OUTSIDE,) if has_pdof and self.outside_impulse_x is not None else ()
 
     def _may_have_others(self) -> bool:
         """Whether another pair may fit, as small changes of the tyres' impulse move what was found

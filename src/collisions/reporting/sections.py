@@ -374,7 +374,7 @@ def momentum_assumptions(
     sheet.heading("Assumptions")
     together = " The vehicles leave together." if "together" in (solution.given or {}) else ""
     sheet.say(f"{momentum_assumption(solution)}{together}")
-    for sentence in _momentum_neglect(sheet, solution, options):
+    for sentence in (*_momentum_neglect(sheet, solution, options), *solution._pushed()):
         sheet.say(as_sentence(sentence))
 
 
