@@ -531,8 +531,8 @@ def left_out(
     that due to geometry in 9 of 10, 0.21 to 1.22 in all; and from first contact 0.82 to 1.36 of
     that in 9 of 10, 0.21 to 2.26 in all. Of a plastic impact without friction the estimate for
     the geometry is exact as the duration goes to 0. A higher restitution makes it too large: at
-    0.8 up to six times the change, which is small there from maximum engagement. Spin before and
-    pivots have not been measured.
+    0.8 up to six times the change, which is small there from maximum engagement. Spin before,
+    pivots and walls have not been measured.
 
     Also left out here: the turning moment of the tyres, load and suspension, and crush that moves
     the centre of mass.

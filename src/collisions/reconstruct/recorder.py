@@ -79,8 +79,10 @@ class RecordedPulse(Shown):
 
     @derived("rad")
     def pdof(self) -> float | None:
-        """Principal direction of force [rad], 0 ahead, positive clockwise (from the right); None
-        without lateral delta-V.
+        """Principal direction of force [rad], 0 ahead, positive clockwise (from the right).
+
+        It is opposite to the delta-V that was recorded, in which the tyres and the place of the
+        recorder have their part. None without lateral delta-V.
         """
         return (
             None
