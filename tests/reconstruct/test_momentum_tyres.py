@@ -148,7 +148,7 @@ def test_the_pdof_is_that_of_the_contact_without_the_tyres():
 
 
 def test_the_pdof_with_an_impulse_from_outside_says_what_is_in_it():
-    said = "the PDOF of each is the direction of its whole delta-V"
+    said = "is left in its PDOF, which is not the direction of the contact's force alone"
     pushed = found(outside_impulse=(500.0, -300.0))
     assert [said in one for one in pushed.statements].count(True) == 1
     without = {name: value for name, value in CROSSED.items() if "heading" not in name}

@@ -41,8 +41,8 @@ _NEEDED = {
     **{f"tyre_impulse_{axis}_{label}": f"tyres_{label}" for label in "ab" for axis in "xy"},
 }
 _WITH_OUTSIDE = (
-    "the impulse from outside is that on both vehicles together: the PDOF of each is the direction "
-    "of its whole delta-V, with its part of that impulse, and not that of the contact alone"
+    "the impulse from outside is that on both vehicles together: what part of it each took is not "
+    "known, and is left in its PDOF, which is not the direction of the contact's force alone"
 )
 _SENSITIVITY_UNITS = {"mass": "kg", "speed": "(m/s)", "course": "deg", "outside": "(N*s)"}
 
