@@ -354,6 +354,32 @@ def test_again_suspects_no_number_that_has_its_unit(stated):
     assert [found.count("suspect_units") for found in codes] == [bare, bare]
 
 
+@pytest.mark.parametrize("geometry", ["fixed", "maximum_engagement", "first_contact"])
+@pytest.mark.parametrize("pull", [{}, {"drag": 0.6}], ids=str)
+def test_the_arm_times_the_impulse_is_the_moment_that_came_about(geometry, pull):
+    """By the yaw rates before and after, where the point moves on too; and in a batch."""
+    a = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=-2.1, y=0.0, heading=0.0, vx=15.0)
+    b = col.Vehicle(mass=1250.0, yaw_inertia=1900.0, x=0.9, y=-0.4, heading=math.pi / 2, vy=11.0)
+    contact = {"normal": 0.0, "point": (0.0, 0.3), "friction": 0.5, "duration": 0.1, **pull}
+    impact = col.time_resolved(a, b, 0.1, geometry=geometry, **contact)
+    stays = col.eccentric(a, b, 0.1, normal=0.0, point=(0.0, 0.3), friction=0.5)
+    for side in (impact.a, impact.b):
+        turned = side.after.yaw_rate - side.before.yaw_rate
+        moment = side.before.yaw_inertia * turned - side.tyre_moment
+        size = math.hypot(side.impulse_x, side.impulse_y)
+        assert side.moment_arm * size == pytest.approx(moment, rel=1e-9)
+        k2 = side.before.yaw_inertia / side.before.mass
+        assert side.gamma == pytest.approx(k2 / (k2 + side.moment_arm**2), rel=1e-12)
+    # A contact that moves on has another arm than that of its point.
+    moved = abs(impact.a.moment_arm - stays.a.moment_arm) > 0.04 * abs(stays.a.moment_arm)
+    assert moved == (geometry != "fixed")
+    stiff = a.replace(yaw_inertia=np.array([2500.0, math.inf]))
+    many = col.time_resolved(stiff, b, 0.1, geometry=geometry, **contact)
+    assert many.a.moment_arm[0] == pytest.approx(impact.a.moment_arm, rel=1e-6)
+    assert np.isfinite(many.a.moment_arm[1])
+    assert many.a.gamma[1] == 1.0
+
+
 # Fixed geometry without tyres: energetic restitution
 
 

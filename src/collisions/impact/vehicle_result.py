@@ -207,15 +207,27 @@ class VehicleResult(Frozen, Summarized):
         """Moment arm h of the resultant contact impulse about the centre of mass [m], positive if
         it turns counter-clockwise.
 
-        The arm times the impulse is the moment. NaN without an impulse; None without a contact
-        point or a position.
+        The arm times the impulse is the moment. Of a contact that moves on meanwhile, as in
+        ``time_resolved`` by default, it is the arm of the moment that came about; of a body that
+        cannot turn, it is that at the point as given. NaN without an impulse; None without a
+        contact point or a position.
         """
-        return self._arm(self.impulse_x, self.impulse_y)
+        impulse, inertia = (self.impulse_x, self.impulse_y), self.before.yaw_inertia
+        at_point = self._arm(*impulse)
+        moves = isinstance(self._answer, Passed) and self._inputs.geometry != "fixed"
+        if not moves or at_point is None or inertia is None:
+            return at_point
+        stays = math_or_numpy(inertia).isinf(inertia)
+        with np.errstate(all="ignore"):
+            size = hypot(*impulse)
+            moment = inertia * self.delta_yaw_rate - self.tyre_moment
+            arm: Value = select(stays, at_point, moment / select(size == 0.0, math.nan, size))
+        return arm
 
     @derived("m")
     def normal_arm(self) -> Value | None:
         """Moment arm of the normal impulse alone about the centre of mass [m], signed as
-        ``moment_arm`` (r of eq 13).
+        ``moment_arm`` (r of eq 13); at the point and with the normal as given.
         """
         nx, ny = self._inputs.normal
         answered = 0.0 * self._answer.normal_impulse
