@@ -586,6 +586,89 @@ def test_a_crush_energy_may_count_what_restitution_gives_back_or_not(friction):
     assert "absorbed" not in finding.sentence
 
 
+WHEELS = Tyres(0.8, 1.0, 2.7, 1.5)
+SLOW = {"duration": 0.12, "tyres_a": WHEELS, "tyres_b": WHEELS}
+
+
+def slow(solve=col.eccentric, b=None, **more):
+    """Two cars at right angles, so slow that what else acts on them counts."""
+    a = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=-2.1, y=0.0, heading=0.0, vx=6.0)
+    b = b or col.Vehicle(mass=1250.0, yaw_inertia=1900.0, x=0.9, y=0.0, heading="90 deg", vy=3.0)
+    return solve(a, b, 0.1, normal=0.0, point=(0.0, 0.1), friction=0.3, **more)
+
+
+@pytest.mark.parametrize(
+    "impact",
+    [
+        slow,
+        lambda: slow(**SLOW),
+        lambda: slow(outside_b=(0.0, -2500.0, 0.0)),
+        lambda: slow(outside_b=(0.0, 0.0, 9000.0)),
+        lambda: slow(col.time_resolved, **SLOW),
+        lambda: slow(b=col.Vehicle(mass=1250.0, yaw_inertia=1900.0, x=0.9, y=0.0,
+            heading="90 deg", pivot=(0.5, 0.9))),
+    ],
+    ids=["plain", "tyres", "push", "turn", "in time", "pivot"],
+)  # fmt: skip
+def test_the_own_figures_of_an_answer_are_no_finding_whatever_else_acts(impact):
+    """Delta-V is that of all that acts, the PDOF that of the contact."""
+    impact = impact()
+    tight = {"delta_v_off_damage": 1e-9, "pdof_off_damage": 1e-9, "yaw_against_lever": 1e-9}
+    for label, side in (("a", impact.a), ("b", impact.b)):
+        own = {
+            f"damage_delta_v_{label}": (side.delta_v_forward, side.delta_v_left),
+            f"damage_pdof_{label}": side.pdof,
+        }
+        for code in tight:
+            assert of(code, impact, **own, limits=tight) == []
+    # As large, and along the force of the contact alone.
+    along = impact.b.delta_v
+    seen = (-along * math.cos(impact.b.pdof), along * math.sin(impact.b.pdof))
+    off = math.hypot(impact.b.delta_v_forward - seen[0], impact.b.delta_v_left - seen[1]) / along
+    found = of("delta_v_off_damage", impact, damage_delta_v_b=seen, limits=tight)
+    assert [finding.measured for finding in found] == (
+        [pytest.approx(off, rel=1e-9)] if off > 1e-9 else []
+    )
+
+
+@pytest.mark.parametrize("pushed", [{}, {"outside_b": (0.0, -2500.0)}, SLOW], ids=str)
+def test_planar_momentum_compares_crush_with_what_the_contact_took(pushed):
+    """Of the same crash forward: what the contact lost and what turns after, which momentum does
+    not know of. Of an impulse from outside it is not known on which vehicle it acted.
+    """
+    impact = slow(**pushed)
+    known = {name: pushed[name] for name in pushed if name != "outside_b"}
+    if known:
+        known |= {f"yaw_rate_{of}_after": getattr(impact, of).after.yaw_rate for of in "ab"}
+    if "outside_b" in pushed:
+        known["outside_impulse"] = pushed["outside_b"]
+    solution = reconstruct.momentum(
+        1500.0,
+        1250.0,
+        course_a=0.0,
+        course_b="90 deg",
+        course_a_after=impact.a.after.course,
+        course_b_after=impact.b.after.course,
+        speed_a_after=impact.a.after.speed,
+        speed_b_after=impact.b.after.speed,
+        heading_a=0.0,
+        heading_b="90 deg",
+        **known,
+    )
+    turning = sum(
+        0.5 * side.before.yaw_inertia * side.after.yaw_rate**2 for side in (impact.a, impact.b)
+    )
+    crush, tight = impact.energy_loss + turning, {"momentum_energy": 0.02}
+    assert of("momentum_energy", solution, crush_energy=crush, limits=tight) == []
+    (finding,) = of("momentum_energy", solution, crush_energy=2.0 * crush, limits=tight)
+    others = {"outside_b": "the impulse from outside", "duration": "the tyres"}
+    for name, other in others.items():
+        assert (f"beside what {other} took" in finding.sentence) == (name in pushed)
+    for label, side in (("a", impact.a), ("b", impact.b)):
+        own = {f"damage_delta_v_{label}": (side.delta_v_forward, side.delta_v_left)}
+        assert of("delta_v_off_damage", solution, **own, limits={"delta_v_off_damage": 0.01}) == []
+
+
 def test_damage_against_the_answer():
     """Energy as a share of that lost, directions by the short way round, delta-V as a share; none
     without evidence.

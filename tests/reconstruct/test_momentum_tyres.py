@@ -165,6 +165,14 @@ def test_the_pdof_with_an_impulse_from_outside_says_what_is_in_it():
         assert said in " ".join(text.split())
 
 
+def test_the_sensitivities_say_that_they_hold_the_impulse_of_the_tyres():
+    said = "worked out with the impulse of the tyres as it is"
+    with_tyres = found(duration=0.1, tyres_a=ROLLING, tyres_b=locked(0.7))
+    for answer, times in ((with_tyres, 1), (found(), 0)):
+        for text in (str(answer.summary()), col.report(answer, form="markdown", figures=False)):
+            assert " ".join(text.split()).count(said) == times
+
+
 @pytest.mark.slow
 def test_the_forward_answer_is_found_again():
     """The forward solver takes the force from the motions of an impact without tyres, this one from

@@ -404,6 +404,12 @@ SCENE_REFUSALS = [
         "bad_outline",
         "surfaces[0] has sides that cross, from corner 0 to 1 and from 2 to 3; give its corners",
     ),
+    (
+        {"surfaces": [([(k, k * k) for k in range(1001)], 0.2)]},
+        InputError,
+        "bad_outline",
+        "surfaces[0] has 1001 corners, and an area has at most 1000; leave out those without",
+    ),
     # A third and a fourth way through one place; a border that goes around twice.
     (
         {"surfaces": [([(3, -9), (13, 0), (23, 9), (33, -9), (13, 0), (3, 9)], 0.2)]},

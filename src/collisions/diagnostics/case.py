@@ -20,7 +20,7 @@ from ..impact.solvers import required_model
 from ..impact.vehicle_result import VehicleResult
 from ..kernels.contact_laws import BRACH, FRICTION, LAWS
 from ..kernels.status import EPS
-from ..quantities.directions import from_degrees
+from ..quantities.directions import angle_of, from_degrees, from_radians
 from ..quantities.formatting import decimals_of, in_words, places, rounded, scale_of, unit_of
 from ..reconstruct import MomentumSolution
 from ..vehicle.outlines import in_scene, overlap
@@ -47,14 +47,16 @@ class Damage(NamedTuple):
 
 class VehicleFigures(NamedTuple):
     """The quantities that every result has for a vehicle, and its name in a sentence; mass and
-    speed are those before. ``mass_has_unit`` and ``speed_has_unit`` say whether they were given
-    with one.
+    speed are those before. ``delta_v_from`` is where its delta-V comes from, clockwise from its
+    heading: the PDOF, but for what else than the contact acts on it. ``mass_has_unit`` and
+    ``speed_has_unit`` say whether they were given with one.
     """
 
     who: str
     mass: float
     speed: float
     delta_v: float
+    delta_v_from: float | None
     pdof: float | None
     heading: float | None
     mass_has_unit: bool
@@ -126,6 +128,7 @@ class MomentumCase(_Case):
         return {
             label: VehicleFigures(
                 who=f"vehicle {label.upper()}",
+                delta_v_from=self._delta_v_from(label),
                 **{name: getattr(self.answer, f"{name}_{label}") for name in names},
                 **{
                     f"{name}_has_unit": isinstance(
@@ -136,6 +139,25 @@ class MomentumCase(_Case):
             )
             for label in "ab"
         }
+
+    def _velocity(self, label: str, when: str = "") -> Any:
+        """The velocity of a vehicle before, or "_after", along x and y; of one at rest 0."""
+        speed = getattr(self.answer, f"speed_{label}{when}")
+        course = getattr(self.answer, f"course_{label}{when}")
+        return np.zeros(2) if course is None else speed * np.array(from_radians(course))
+
+    def _delta_v_from(self, label: str) -> float | None:
+        heading = getattr(self.answer, f"heading_{label}")
+        if heading is None:
+            return None
+        x, y = self._velocity(label, "_after") - self._velocity(label)
+        c, s = from_radians(heading)
+        return float(angle_of(-(c * x + s * y), c * y - s * x))
+
+    def work_on(self, label: str, impulse: tuple[float, float]) -> float:
+        """Work of an impulse on a vehicle, at the mean of its velocities before and after [J]."""
+        mean = 0.5 * (self._velocity(label) + self._velocity(label, "_after"))
+        return float(mean @ np.array(impulse))
 
     @cached_property
     def from_outside(self) -> tuple[float, float]:
@@ -188,6 +210,9 @@ class ImpactCase(_Case):
                 side.before.mass,
                 side.before.speed,
                 side.delta_v,
+                None
+                if side.delta_v_forward is None or side.delta_v_left is None
+                else angle_of(-side.delta_v_forward, side.delta_v_left),
                 side.pdof,
                 side.before.heading,
                 mass_has_unit="mass" in (self.stated(label).given or {}),

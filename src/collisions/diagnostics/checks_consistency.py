@@ -45,6 +45,21 @@ def _energy_loss(case: Case) -> float:
     return loss
 
 
+def _lost_in_contact(case: Case) -> tuple[float, float]:
+    """The least and the most that the contact took of the energy [J]: of planar momentum what the
+    tyres did not take, nor an impulse from outside, on whichever vehicle that acted.
+    """
+    lost = _energy_loss(case)
+    if isinstance(case, ImpactCase):
+        return lost, lost
+    pushed = (case.answer.outside_impulse_x or 0.0, case.answer.outside_impulse_y or 0.0)
+    worked = [case.work_on(label, pushed) for label in "ab"]
+    for label in case.answer.tyres:
+        x, y = (getattr(case.answer, f"tyre_impulse_{axis}_{label}") for axis in "xy")
+        lost += case.work_on(label, (x, y))
+    return lost + min(worked), lost + max(worked)
+
+
 @finding(
     "difference of the crush energy that was given from the energy lost, or from what was absorbed "
     "by maximum crush and by sliding, if that is nearer, as a share of it",
@@ -52,10 +67,18 @@ def _energy_loss(case: Case) -> float:
     f"Conservation of Energy Warning, {MESSAGES}: typically 50 percent",
 )
 def momentum_energy(case: Case) -> Iterator[Measured]:
-    crush, lost = case.crush_energy, _energy_loss(case)
+    crush = case.crush_energy
     if crush is not None:
-        off = share(abs(crush - lost), lost)
+        least, lost = _lost_in_contact(case)
+        nearest = min(max(crush, least), lost)
+        off = share(abs(crush - nearest), nearest)
         leaves = f"{case.text(lost, 'energy')} to be lost"
+        if least < lost:
+            leaves = f"{case.text(least, 'energy')} to {leaves}"
+        if isinstance(case, MomentumCase):
+            others = ["the tyres"] if case.answer.tyres else []
+            others += [] if case.answer.outside_impulse_x is None else ["the impulse from outside"]
+            leaves += f" beside what {' and '.join(others)} took" if others else ""
         if isinstance(case, ImpactCase):
             # Coefficients fitted to the speeds of barrier tests count what restitution gives back.
             taken = case.answer.energy_absorbed + case.answer.energy_loss_tangential
@@ -391,12 +414,22 @@ def yaw_against_lever(case: ImpactCase) -> Iterator[Measured]:
         arm_x, arm_y = point[0] - x, point[1] - y
         lever = arm_y * c - arm_x * s
         if abs(lever) > _LEVER_TOL * math.hypot(arm_x, arm_y):
+            turned = _turned_by_contact(side)
             sentence = (
-                f"{who} is turned by {case.text(side.delta_yaw_rate, 'yaw rate')}, against the "
+                f"the contact turns {who} by {case.text(turned, 'yaw rate')}, against the "
                 f"lever ({case.text(abs(lever), 'length')}) of a force from the "
                 f"{case.text(pdof, 'angle')} that its damage shows"
             )
-            yield Measured(-math.copysign(1.0, lever) * side.delta_yaw_rate, sentence, label)
+            yield Measured(-math.copysign(1.0, lever) * turned, sentence, label)
+
+
+def _turned_by_contact(side: VehicleResult) -> float:
+    """The change of the yaw rate without what tyres and an impulse from outside do [rad/s]."""
+    inertia = side.before.yaw_inertia
+    if inertia is None or math.isinf(inertia) or side.before.pivot is not None:
+        # What acts on a body on a pivot from outside turns it about that.
+        return side.delta_yaw_rate
+    return side.delta_yaw_rate - (side.tyre_moment + side.outside_yaw) / inertia
 
 
 @finding(
@@ -433,13 +466,14 @@ def delta_v_off_damage(case: Case) -> Iterator[Measured]:
         if seen is None:
             continue
         has, shows, off = case.text(delta_v, "speed"), case.text(seen, "speed"), abs(seen - delta_v)
-        if direction is not None and vehicle.pdof is not None and not math.isnan(vehicle.pdof):
+        comes = vehicle.delta_v_from
+        if direction is not None and comes is not None and not math.isnan(comes):
             has, shows = (
                 f"{size} from {case.text(angle, 'angle')}"
-                for size, angle in ((has, vehicle.pdof), (shows, direction))
+                for size, angle in ((has, comes), (shows, direction))
             )
             off = math.hypot(
-                off, 2.0 * math.sqrt(seen * delta_v) * math.sin(0.5 * (direction - vehicle.pdof))
+                off, 2.0 * math.sqrt(seen * delta_v) * math.sin(0.5 * (direction - comes))
             )
         sentence = f"{vehicle.who} has a delta-V of {has}, and its damage shows {shows}"
         yield Measured(share(off, delta_v), sentence, label, rounding=off_by(1.0))

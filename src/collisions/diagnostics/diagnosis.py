@@ -103,7 +103,8 @@ def diagnose(
         ``momentum_energy``. Whether it is the energy absorbed at maximum crush or what remains of
         it after restitution depends on the stiffness coefficients, so of an Impact it is compared
         with the nearer of ``energy_loss`` and ``energy_absorbed`` plus ``energy_loss_tangential``;
-        of a MomentumSolution with the energy lost.
+        of a MomentumSolution with the energy lost but for what tyres and an impulse from outside
+        took.
     damage_pdof_a, damage_pdof_b : angle [rad], optional
         Direction of force shown by the damage of a vehicle, 0 from straight ahead, positive
         clockwise, for ``pdof_off_damage`` and ``yaw_against_lever``. The vehicle then needs a

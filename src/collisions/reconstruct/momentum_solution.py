@@ -44,6 +44,10 @@ _WITH_OUTSIDE = (
     "the impulse from outside is that on both vehicles together: what part of it each took is not "
     "known, and is left in its PDOF, which is not the direction of the contact's force alone"
 )
+TYRES_HELD = (
+    "how far an input moves an answer is worked out with the impulse of the tyres as it is; solved "
+    "again with another input, that impulse changes too"
+)
 _SENSITIVITY_UNITS = {"mass": "kg", "speed": "(m/s)", "course": "deg", "outside": "(N*s)"}
 
 
@@ -161,10 +165,11 @@ class MomentumSolution(Shown):
             for name in courses
         ]
         changes = Part(rows, "Change per degree of", tuple(map(_of_vehicle, speeds)))
+        stated = [TYRES_HELD] if self.tyres and rows else []
         return Summary(
             self._title,
             [*sided(values, numbers), changes, all_numbers(self._rows())],
-            [*outcomes(self.status), *map(as_sentence, self._stated_in(numbers.name))],
+            [*outcomes(self.status), *map(as_sentence, (*stated, *self._stated_in(numbers.name)))],
         )
 
     @property

@@ -37,6 +37,7 @@ from ..quantities.tables import as_sentence, label_of
 from ..quantities.units import Input
 from ..quantities.user_text import plain
 from ..reconstruct import MomentumSolution
+from ..reconstruct.momentum_solution import TYRES_HELD
 from ..reconstruct.momentum_tyres import neglected as momentum_neglect
 from ..reconstruct.momentum_tyres import what_is_sought
 from ..vehicle.drag import read_drag, read_duration
@@ -429,6 +430,8 @@ def momentum_inputs_and_results(
             moved = f"{text}{label} per {unit}"
             rows.append((_in_words(answer), f"moved by {_in_words(name)}", moved))
     sheet.table(rows)
+    if solution.tyres:
+        sheet.say(as_sentence(TYRES_HELD))
 
 
 def _momentum_neglect(

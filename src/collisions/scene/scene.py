@@ -56,7 +56,7 @@ class Scene(Shown):
     contacts : list of Contact
         Which of them meet, and how.
     surfaces : sequence of (corners, friction), optional
-        Areas with a different friction, each with three or more corners [m] in order, for movers
+        Areas with a different friction, each with 3 to 1000 corners [m] in order, for movers
         with tyres. The first that a wheel is in counts. An area may have dents; sides that cross
         are refused.
     slope : pair of float, str, Quantity or array [-]

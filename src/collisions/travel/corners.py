@@ -20,6 +20,8 @@ Place: TypeAlias = tuple[float, float]
 _ONE_WAY = 1e-9
 # Of the square of its extent: below it an area is rounding.
 _NO_AREA = 1e-12
+# Whether the sides of an area cross takes a time that grows with the square of their number.
+_MOST_CORNERS = 1000
 _AROUND = (
     "give its corners `(x, y)` one after another around it, such as "
     "`[(20, -5), (30, -5), (30, 5), (20, 5)]`"
@@ -39,6 +41,13 @@ def read_areas(reader: ArgumentReader, surfaces: Any) -> list[tuple[tuple[Place,
                 f"and friction; got {shown(area)}"
             )
             reader.refuse(ShapeError(text, code="bad_shape", argument="surfaces"))
+            continue
+        if len(corners) > _MOST_CORNERS:
+            text = (
+                f"surfaces[{i}] has {len(corners)} corners, and an area has at most "
+                f"{_MOST_CORNERS}; leave out those without which its edge is the same"
+            )
+            reader.refuse(InputError(text, code="bad_outline", argument="surfaces"))
             continue
         places = tuple(
             reader.pair(place, "m", f"surfaces[{i}][0][{j}]") for j, place in enumerate(corners)

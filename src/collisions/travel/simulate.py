@@ -239,8 +239,8 @@ def simulate(
     tyres : Tyres
         Friction, braking and size; arrays in it are many cases.
     surfaces : sequence of (corners, friction), optional
-        Areas with a different friction, each with three or more corners [m] in order. The first
-        that a wheel is in counts. An area may have dents; sides that cross are refused.
+        Areas with a different friction, each with 3 to 1000 corners [m] in order. The first that a
+        wheel is in counts. An area may have dents; sides that cross are refused.
     slope : pair of float, str, Quantity or array [-]
         Rise over run of the ground along x and along y of the scene: (0.05, 0) if it rises by 5 %
         in the direction of x; from -100 to 100.
