@@ -304,7 +304,7 @@ def evaluate(scene: Scene, digits: int = 60) -> Answer:
         )
 
     value = None if math.isinf(scene.value) else num(scene.value)
-    sticks, ratio, passage = False, num(0), None
+    sticks, ratio, passage, plastic, early = False, num(0), None, None, num(1)
     if scene.rule == "impulse_ratio":
         regime, ratio = "given", value
     elif scene.value == 0.0:
@@ -317,6 +317,13 @@ def evaluate(scene: Scene, digits: int = 60) -> Answer:
         if passage is None:
             return Answer("no_slip_pulls")
         regime = passage.regime
+        # Of what acts from outside so much has acted by the end of compression; or all of it where
+        # there is none with that.
+        for early in (1 / (1 + max(e, 0)), num(1)):
+            left_n, left_t = closing + early * push_n, slip + early * push_t
+            plastic = follow(mp, (k_nn, k_nt, k_tt), left_n, left_t, value, num(0))
+            if plastic:
+                break
     elif scene.rule == "critical_fraction":
         regime = "given"
         if no_slip[0] <= 0:
@@ -400,13 +407,15 @@ def evaluate(scene: Scene, digits: int = 60) -> Answer:
         if passage is None:
             common.append(dot(n, contact) + dot(n, moved) / (1 + e))
             continue
-        # The top of the passage, as an impulse on this body; with outside impulses they come first.
-        cn, ct = (
-            (part * (2 * k - 1) for part in passage.top[:2]) if passage.top else (mp.nan, mp.nan)
-        )
+        # The end of compression, as an impulse on this body.
+        if not plastic or e < 0:
+            common.append(mp.nan)
+            continue
+        cn, ct = (part * (2 * k - 1) for part in plastic.top[:2])
         struck = cn * n[0] + ct * t[0], cn * n[1] + ct * t[1]
-        turned = turn[k] * (r[k][0] * struck[1] - r[k][1] * struck[0])
-        moved = [share[k] * struck[i] + turned * q[k][i] for i in (0, 1)]
+        turned = turn[k] * (r[k][0] * struck[1] - r[k][1] * struck[0] + early * moments[k])
+        pushed = [struck[i] + early * num(scene.outside[k][i]) for i in (0, 1)]
+        moved = [share[k] * pushed[i] + turned * q[k][i] for i in (0, 1)]
         common.append(dot(n, contact) + dot(n, moved))
 
     # The scales of section 2.
@@ -437,10 +446,8 @@ def evaluate(scene: Scene, digits: int = 60) -> Answer:
     kappa = kappa_s if sticks else kappa_mu
     spread = kappa * s_p
     separation, compression = e * closing, pn / (1 + e) if e >= 0 else pn
-    if scene.law == "stronge" and passage is None and e >= 0:
-        compression = (closing + push_n) / resistance
     if passage is not None:
-        separation, compression = -passage.closing, passage.top[0] if e >= 0 else pn
+        separation, compression = -passage.closing, plastic.top[0] if e >= 0 else pn
         # Every stretch in its own direction; one along the tangent alone stops the slip.
         kappa, spread = num(0), num(0)
         for along_n, along_t in passage.directions:
@@ -462,8 +469,9 @@ def evaluate(scene: Scene, digits: int = 60) -> Answer:
         spread += of_ratio * pn * (1 + abs(k_nt) * mp.sqrt(1 + ratio * ratio) / resistance)
     loss_n, loss_t = (1 - e) * closing * pn / 2, -pt * (slip + slip_after) / 2
     if passage is not None:
-        loss_t = passage.friction
-        loss_n = loss - loss_t
+        # What acts from outside does so in proportion to the normal impulse.
+        loss_n = passage.work - push_n * pn / 2
+        loss_t = loss - loss_n
     critical = None
     if no_slip is not None:
         critical = (

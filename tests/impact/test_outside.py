@@ -714,3 +714,61 @@ def test_no_speed_of_maximum_crush_where_the_contact_gave_energy():
     assert all(map(math.isnan, alone.max_crush_speeds(0.5)))
     for speeds in together.max_crush_speeds(0.5):
         assert np.isnan(speeds).tolist() == [True, False]
+
+
+SLIDING = {
+    "pushed along the tangent": {"outside_b": (0.0, -4000.0)},
+    "pushed": {"outside_a": (-900.0, 100.0, 200.0), "outside_b": (300.0, 0.0, -150.0)},
+    "tyres": {"duration": 0.1, "tyres_a": Tyres(0.8, 1.0, 2.7, 1.5),
+        "tyres_b": Tyres(0.8, 1.0, 2.7, 1.5)},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("acts", SLIDING.values(), ids=SLIDING)
+@pytest.mark.parametrize("turns", [True, False])
+def test_the_laws_are_one_where_the_contact_slides_one_way(acts, turns):
+    """Also in what each energy is of and in what has passed by the end of compression; and
+    restitution gives back e squared of the work of compression along the normal.
+    """
+    e, inertias = 0.3, (2500.0, 1900.0) if turns else (math.inf, math.inf)
+    a = col.Vehicle(mass=1500.0, yaw_inertia=inertias[0], x=-2.1, y=0.0, heading=0.0, vx=6.0)
+    b = col.Vehicle(
+        mass=1250.0,
+        yaw_inertia=inertias[1],
+        x=0.9,
+        y=0.0,
+        heading="90 deg",
+        vy=np.array([6.0, 9.0]),
+    )
+    contact = {"normal": 0.0, "point": (0.0, 0.1), "friction": 0.1, **acts}
+    for single in (0, 1, None):
+        brach, stronge = (
+            col.eccentric(
+                a, b if single is None else b.replace(vy=(6.0, 9.0)[single]), e, law=law, **contact
+            )
+            for law in ("brach", "stronge")
+        )
+        assert np.all(brach.regime == "sliding")
+        mine, other = stronge.to_columns(), brach.to_columns()
+        for name, values in other.items():
+            if isinstance(values[0], float) and not name.startswith(("critical", "no_slip")):
+                assert mine[name] == pytest.approx(values, rel=1e-9, abs=1e-9, nan_ok=True), name
+        for impact in (brach, stronge):
+            back = impact.energy_absorbed - impact.energy_loss_normal
+            assert back == pytest.approx(e * e * impact.energy_absorbed, rel=1e-9)
+            assert impact.max_crush_speeds(1.0)[0] == pytest.approx(
+                np.sqrt(2.0 * impact.energy_absorbed / 1500.0), rel=1e-12
+            )
+
+
+def test_a_push_along_the_tangent_leaves_the_work_along_the_normal():
+    """Of bodies that do not turn: half the reduced mass times the square of the closing speed."""
+    a = col.Vehicle(mass=1500.0, yaw_inertia=math.inf, x=-2.1, y=0.0, vx=8.0)
+    b = col.Vehicle(mass=1250.0, yaw_inertia=math.inf, x=0.9, y=0.0, vy=9.0)
+    impact = col.eccentric(
+        a, b, 0.5, normal=0.0, point=(0.0, 0.0), friction=0.1, law="stronge", outside_b=(0.0, -4e3)
+    )
+    work = 0.5 * (1500.0 * 1250.0 / 2750.0) * 8.0**2
+    assert impact.energy_absorbed == pytest.approx(work, rel=1e-12)
+    assert impact.energy_loss_normal == pytest.approx(0.75 * work, rel=1e-12)
+    assert impact.energy_loss_tangential == pytest.approx(impact.energy_loss - 0.75 * work)

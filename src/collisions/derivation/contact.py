@@ -147,7 +147,7 @@ def _by_energy(page: Page, s: Symbols, k: Mobility) -> Expression | None:
     if s.impact.inputs.rule_value != 0.0:
         return _until_slip_stops(page, s, k)
     _by_rule(page, s, k)
-    return (s.closing + k.push[0]) / k.normal
+    return None
 
 
 def _until_slip_stops(page: Page, s: Symbols, k: Mobility) -> Expression | None:
@@ -203,7 +203,7 @@ def _until_slip_stops(page: Page, s: Symbols, k: Mobility) -> Expression | None:
         page.say("The slip goes on to the end, so the impulse ratio stays.")
         page.equation("Normal impulse", s.normal, (1.0 + e) * g / soft)
         page.equation("Tangential impulse", s.tangential, ZERO.plus(way, mu * s.normal))
-        return g / soft
+        return None
     holds = s.impact.regime == "sticking" or abs(coupling.value) <= mu.value * k.tangential.value
     if holds and not endless:
         page.at_most(Function("abs", coupling), mu * k.tangential)
@@ -249,7 +249,15 @@ def _until_slip_stops(page: Page, s: Symbols, k: Mobility) -> Expression | None:
     )
     page.equation("Normal impulse", s.normal, first + (w + s.separation) / soft_2)
     page.equation("Tangential impulse", s.tangential, first_t + ratio * (s.normal - first))
-    return before
+    if k.push[0] is ZERO:
+        return before
+    if s.impact.complete:
+        page.say(
+            "By the end of compression the impulses from outside have acted in part, taken as "
+            f"1/(1 + {page.symbol(s.e)}) of them. The same contact with that part is followed up "
+            "to there."
+        )
+    return s.compression
 
 
 # What ``explain`` writes of the laws that follow the contact.

@@ -433,19 +433,19 @@ def until_compressed(
     """These outputs at the end of compression, which an incomplete impact does not outlast.
 
     Until then any impact passes as the plastic one, which under an energetic law is not in
-    proportion to the whole.
+    proportion to the whole; but for impulses from outside and of tyres, which are.
     """
     e, found = inputs.restitution, [getattr(answer, name) for name in names]
     refused = answer.status > Status.ENERGY_GAIN
     if LAWS[inputs.law or BRACH].followed:
-        plastic = replace(inputs, restitution=0.0 * e, given=None, **_as_pushed(inputs, answer))
-        with quietly():
-            if choice is None:
-                answer = solve_inputs(model_of(plastic), plastic, on_failure="nan")
-            else:
-                answer, _ = solve_with_simplest(plastic, "nan", 1, None, choice)
+        early = 1.0 / (1.0 + select(e > 0.0, e, 0.0 * e))
+        plastic = _plastic(inputs, answer, choice, early)
+        late = (plastic.status > Status.ENERGY_GAIN) & (refused ^ True)
+        if inputs.pushed and np.any(late):
+            # Where friction leaves no compression with a part of the impulses from outside.
+            plastic = _plastic(inputs, answer, choice, select(late, 1.0, early))
         # The plastic one may answer where the restitution itself was refused.
-        compressed = [select(refused, math.nan, getattr(answer, name)) for name in names]
+        compressed = [select(refused, math.nan, getattr(plastic, name)) for name in names]
     else:
         compressed = [value / (1.0 + e) for value in found]
     pairs = zip(found, compressed, strict=True)
@@ -454,18 +454,32 @@ def until_compressed(
     )
 
 
-def _as_pushed(inputs: Inputs, answer: Any) -> dict[str, Any]:
-    """What tyres did during an impulse, as impulses from outside in their place: the same contact
-    up to another moment has the same, and would else be given that of its own motion.
+def _plastic(inputs: Inputs, answer: Any, choice: ModelChoice | None, share: Any) -> Any:
+    """The answer to the same contact without restitution, with a share of what acts from outside;
+    NaN where it is refused.
     """
-    if not inputs.tyres or not hasattr(answer, "tyre_impulse_x_a"):
-        return {}
-    parts = "tyre_impulse_x", "tyre_impulse_y", "tyre_moment"
-    found: dict[str, Any] = dict.fromkeys(("tyres_a", "tyres_b", "duration"))
+    pushed = _as_pushed(inputs, answer, share)
+    plastic = replace(inputs, restitution=0.0 * inputs.restitution, given=None, **pushed)
+    with quietly():
+        if choice is None:
+            return solve_inputs(model_of(plastic), plastic, on_failure="nan")
+        return solve_with_simplest(plastic, "nan", 1, None, choice)[0]
+
+
+def _as_pushed(inputs: Inputs, answer: Any, share: Any) -> dict[str, Any]:
+    """A share of the impulses from outside, with what tyres did during an impulse in place of
+    those: the same contact up to another moment would else be given that of its own motion.
+    """
+    tyres = bool(inputs.tyres) and hasattr(answer, "tyre_impulse_x_a")
+    found: dict[str, Any] = dict.fromkeys(("tyres_a", "tyres_b", "duration")) if tyres else {}
     for name in OUTSIDE:
-        pushes = [getattr(answer, f"{part}_{name[-1]}") for part in parts]
-        given = getattr(inputs, name) or (0.0, 0.0, 0.0)
-        found[name] = tuple(one + more for one, more in zip(given, pushes, strict=True))
+        given = getattr(inputs, name)
+        if tyres:
+            parts = "tyre_impulse_x", "tyre_impulse_y", "tyre_moment"
+            pushes = [getattr(answer, f"{part}_{name[-1]}") for part in parts]
+            given = [one + more for one, more in zip(given or (0.0,) * 3, pushes, strict=True)]
+        if given is not None:
+            found[name] = tuple(share * part for part in given)
     return found
 
 

@@ -49,7 +49,8 @@ class Approach(NamedTuple):
     """Closing speed, slip and restitution when the contact acts, and the changes that an impulse
     has to bring so that the contact sticks.
 
-    ``acts`` is False where impulses from outside part the bodies before.
+    ``push_n`` is what impulses from outside add to the closing speed; ``acts`` is False where they
+    part the bodies before.
     """
 
     closing: Any
@@ -57,6 +58,7 @@ class Approach(NamedTuple):
     restitution: Any
     change_n: Any
     change_t: Any
+    push_n: Any = 0.0
     acts: Any = True
 
 
@@ -79,6 +81,7 @@ class Struck(NamedTuple):
     singular: Any
     pulls: Any
     jams: Any
+    push_n: Any
     acts: Any
     passage: Passage | None
     pushes: tuple[tuple[Any, Any, Any], ...] | None
@@ -204,7 +207,7 @@ def approach(
     # pushed <= 0.
     follows = LAWS[law].passage is not None
     parts = (change_n <= 0.0) | (pushed <= 0.0) if follows else change_n <= 0.0
-    return Approach(pushed, shifted, e, change_n, change_t, parts ^ True)
+    return Approach(pushed, shifted, e, change_n, change_t, push_n, parts ^ True)
 
 
 def strike(problem: Problem, rule: str, law: str, eps: float) -> Struck:
@@ -259,6 +262,7 @@ def strike(problem: Problem, rule: str, law: str, eps: float) -> Struck:
         singular,
         pulls,
         jams,
+        now.push_n,
         now.acts,
         passage,
         pushes,
@@ -291,13 +295,13 @@ def slip_and_losses(
         loss_n, loss_t = passage.loss_n, passage.loss_t
         return passage.separation, passage.slip_after, loss_n, loss_t, loss_n + loss_t, False
     if passage is not None:
-        # What the contact took, at the mean of the velocities before and after; the passage began
-        # with those shifted.
+        # What the contact took, at the mean of the velocities before and after. The passage began
+        # with those shifted, so along the normal it counts half of the shift too much.
         mean = passage.separation / safe_divisor(closing != 0.0, closing)
         of_mean = mean, closing, slip, passage.slip_after, struck.sticks, 0.0, normal, tangential
         _, _, loss, gains = energy_losses(law, *of_mean, None, eps, passage.separation)
-        loss_t = passage.loss_t
-        return passage.separation, passage.slip_after, loss - loss_t, loss_t, loss, gains
+        loss_n = passage.loss_n - 0.5 * (struck.push_n * normal)
+        return passage.separation, passage.slip_after, loss_n, loss - loss_n, loss, gains
     beyond_sticking = select(
         struck.sticks,
         0.0,
