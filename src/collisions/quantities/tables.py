@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Sequence
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context
 from functools import cached_property
 from typing import Any
 
@@ -142,6 +143,21 @@ class Sentences:
         # else.
         system = self._system if math.isfinite(value * self._system.scale(kind)) else Cells("si")
         return f"{value * system.scale(kind) + 0.0:.{figures}g}{system.unit(kind)}"
+
+    def at_least(self, value: float, kind: str, figures: int = 6) -> str:
+        """A bound below, rounded up, so that it may be written as it is read."""
+        return self._bound(value, kind, figures, ROUND_CEILING)
+
+    def at_most(self, value: float, kind: str, figures: int = 6) -> str:
+        """A bound above, rounded down."""
+        return self._bound(value, kind, figures, ROUND_FLOOR)
+
+    def _bound(self, value: float, kind: str, figures: int, rounding: str) -> str:
+        scale = self._system.scale(kind)
+        if math.isfinite(value * scale):
+            inside = Context(prec=figures, rounding=rounding).create_decimal(value * scale)
+            value = float(inside) / scale
+        return self(value, kind, figures)
 
     def apart(self, values: Sequence[float], kind: str, figures: int = 6) -> list[str]:
         """Each of these numbers, with more figures where so few would write two of them alike."""

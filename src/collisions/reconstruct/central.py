@@ -591,5 +591,5 @@ def _allowed_losses(numbers: dict[str, Any], incomplete: bool, say: Sentences) -
     held = "duration" in numbers
     if "energy_loss" not in numbers or np.isnan(least) or incomplete or held:
         return ""
-    above = "" if np.isinf(most) else f" and at most {say(float(most), 'energy')}"
-    return f"; they allow at least {say(float(least), 'energy')}{above}"
+    top = "" if np.isinf(most) else f" and at most {say.at_most(float(most), 'energy')}"
+    return f"; they allow at least {say.at_least(float(least), 'energy')}{top}"

@@ -713,9 +713,10 @@ def _beside_refusal(
             code=status.label,
         )
     known = course.replace("course", "speed")
+    enough = Sentences(texts).at_least(least, "speed")
     return NoSolutionError(
         f"no {course} fits: across the course of {speed} the other momenta ask for a {known} of "
-        f"{said(least, 'speed', texts)} or more; check it and the other courses and speeds, or "
+        f"{enough} or more; check it and the other courses and speeds, or "
         f"give `{course}=` and leave {known} open",
         code=status.label,
     )

@@ -819,8 +819,8 @@ def _contradiction(end: End, separation: float, slip: float, regime: str | None)
     if end.kind == "closing_speed" and separation > known:
         return (
             f"the contact points part faster than they met: {here}, "
-            f"`closing_speed={end.say(known, 'speed')}`; give at least the separation "
-            "speed, or `restitution=` instead"
+            f"`closing_speed={end.say(known, 'speed')}`; give at least "
+            f"{end.say.at_least(separation, 'speed')}, or `restitution=` instead"
         )
     if end.always_sticks(KUDLICH_SLIBAR):
         return (
@@ -848,8 +848,8 @@ def _contradiction(end: End, separation: float, slip: float, regime: str | None)
             return (
                 f"`energy_loss={end.say(known, 'energy')}` is less than an impact with {given} "
                 f"loses that ends so ({here}); give at least "
-                f"{end.say(float(least), 'energy', 7)}, or `restitution=` or `closing_speed=` "
-                "instead"
+                f"{end.say.at_least(float(least), 'energy', 7)}, or `restitution=` or "
+                "`closing_speed=` instead"
             )
     kind = {"energy_loss": "energy", "closing_speed": "speed"}.get(end.kind, "number")
     other = ", or give `friction=` or `impulse_ratio=`"

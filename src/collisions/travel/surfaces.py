@@ -188,8 +188,9 @@ def _contradiction(
     missing = (after - gained) * (after + gained)
     return NoSolutionError(
         f"{where}: drag + grade is {drop:.6g}, so the vehicle speeds up there, from rest already "
-        f"to {say(gained, 'speed')}, and is to end at {say(after, 'speed')}; the square of its "
-        "speed before would be negative. Correct the sign of the grade, the drag, or the end_speed",
+        f"to {say.at_least(gained, 'speed')}, and is to end at {say(after, 'speed')}; the square "
+        "of its speed before would be negative. Correct the sign of the grade, the drag, or the "
+        "end_speed",
         code="contradictory",
         missing=missing,
     )
