@@ -2,9 +2,12 @@
 of an error stay SI.
 """
 
+import math
+import random
 import re
 
 import numpy as np
+import pint
 import pytest
 
 import collisions as col
@@ -176,3 +179,33 @@ def test_numbers_near_each_other_are_written_apart():
     assert say.apart([0.03432, 0.03432], "number", 4) == ["0.03432", "0.03432"]
     one = 0.1
     assert len(set(say.apart([one, np.nextafter(one, 1.0)], "number"))) == 2
+
+
+@pytest.mark.parametrize("texts", [["35 mph"], ["10 km/h"], []])
+@pytest.mark.parametrize("kind", ["speed", "energy", "length"])
+def test_a_bound_is_rounded_to_the_side_on_which_it_is_allowed(texts, kind):
+    """Read back it is within, by a unit of its last figure at most."""
+    say, generator = Sentences(texts), random.Random(2)
+    for figures in (3, 6, 7):
+        for _ in range(50):
+            value = generator.uniform(1.0, 9.0) * 10.0 ** generator.randint(-3, 7)
+            unit = {"speed": "m/s", "energy": "J", "length": "m"}[kind]
+            least, most = (
+                pint.Quantity(one.replace("·", "*")).m_as(unit)
+                for one in (say.at_least(value, kind, figures), say.at_most(value, kind, figures))
+            )
+            assert value <= least <= value * (1.0 + 10.0 ** (1 - figures))
+            assert value >= most >= value * (1.0 - 10.0 ** (1 - figures))
+    assert say.at_most(math.inf, kind) == say(math.inf, kind)
+
+
+def test_following_a_bound_leads_on():
+    """An energy at the bound that the refusal names is taken."""
+    known = {"va": "31.7 mph", "vb": "4.2 mph"}
+    with pytest.raises(col.NoSolutionError, match="they allow at least") as caught:
+        col.reconstruct.central("3300 lb", "2750 lb", **known, energy_loss="1e7 ft*lbf")
+    most = re.search(r"at most ([0-9.e+]+) ft·lbf", str(caught.value))[1]
+    found = col.reconstruct.central(
+        "3300 lb", "2750 lb", **known, energy_loss=f"{most} ft*lbf", on_failure=None
+    )
+    assert 0.0 <= found.restitution < 0.01

@@ -291,7 +291,7 @@ class Impact(_SpeedsBefore, Frozen, Summarized):
         it would need a pull.
 
         It is not defined (NaN) for a contact with one degree of freedom, such as two parallel arms,
-        or a gate against a wall.
+        or a gate against a wall; nor for one that was followed in time.
         """
         normal, tangential = self._answer.no_slip_normal, self._answer.no_slip_tangential
         # 0 times the normal impulse keeps the NaN of a refused case.
