@@ -226,6 +226,21 @@ class _Parser(argparse.ArgumentParser):
         )
 
 
+class _Once(argparse.Action):
+    """An option with a value that is given once: of two files one would not be written."""
+
+    def __call__(
+        self,
+        parser: argparse.ArgumentParser,
+        namespace: argparse.Namespace,
+        values: Any,
+        option: str | None = None,
+    ) -> None:
+        if getattr(namespace, self.dest) is not None:
+            parser.error(f"{option} is given twice, and takes one file; give one of them")
+        setattr(namespace, self.dest, values)
+
+
 def _parser() -> argparse.ArgumentParser:
     parser = _Parser(
         prog="collisions",
@@ -242,15 +257,17 @@ def _parser() -> argparse.ArgumentParser:
         "schema of case files for editors",
     )
     parser.add_argument(
-        "--report", metavar="FILE", help="write a report: .html with figures, or .md"
+        "--report", action=_Once, metavar="FILE", help="write a report: .html with figures, or .md"
     )
     parser.add_argument(
         "--what-if",
+        action=_Once,
         metavar="FILE",
         help="write an HTML page with a slider for each uncertain number",
     )
     parser.add_argument(
         "--play",
+        action=_Once,
         metavar="FILE",
         help="write an HTML page that plays a scene, with a slider of time",
     )

@@ -769,6 +769,17 @@ def test_the_examples_have_their_published_answers():
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("option", ["--report", "--what-if", "--play"])
+def test_a_file_to_write_is_named_once(option, tmp_path, capsys):
+    """Of two one would not be written, without a word."""
+    files = [tmp_path / name for name in ("one.md", "two.md")]
+    with pytest.raises(SystemExit) as ended:
+        main([str(CASES / "run_out.toml"), *(str(part) for one in files for part in (option, one))])
+    assert ended.value.code == 2
+    assert f"{option} is given twice, and takes one file" in capsys.readouterr().err
+    assert not any(one.exists() for one in files)
+
+
 def test_the_command(tmp_path, capsys):
     """Its output in each form, the units, and the exit codes."""
     file = tmp_path / "case.toml"

@@ -490,7 +490,7 @@ def _as_quantity(values: Sequence[Any], argument: str, unit: str) -> str:
         parts, name = ["..."], example(unit).rpartition("'")[0].rpartition(" ")[2] or "%"
     whole = f"pint.Quantity([{rendered(', '.join(parts))[1:-1]}], {name!r})"
     python = f"put the unit on the whole: {as_code(whole)[1:-1]}, or give numbers in SI"
-    return f"{note}`|{python}|write numbers in SI, or texts with their units`"
+    return f"{note}`|{python}|write numbers in SI`"
 
 
 def _not_a_number(value: Any, argument: str, unit: str) -> InputError:

@@ -44,8 +44,9 @@ def play(run: Run, *, units: UnitSystem | None = None) -> Document:
     table with speed, yaw rate, place and heading; below it the speeds over time. The findings of
     the run, such as that two vehicles are followed through each other, stand in a list, and are
     said when their time comes. The numbers are those of the run, written into the page in equal
-    steps of time, with each contact twice, before and after: the browser only draws them. It loads
-    nothing from outside, and works by keyboard and with screen readers.
+    steps of time, with each contact twice, before and after; one that is followed in time begins
+    then, and passes in the steps that follow. The browser only draws them. The page loads nothing
+    from outside, and works by keyboard and with screen readers.
 
     Parameters
     ----------

@@ -47,7 +47,8 @@ class Track(Shown):
     """The way of one vehicle through a scene, on the clock of all; of a batch over moments, then
     over cases.
 
-    At each contact the clock has its time twice, before and after.
+    At each contact the clock has its time twice, before and after; one that is followed in time
+    begins then, and passes in the moments that follow.
 
     Attributes
     ----------
