@@ -239,14 +239,26 @@ def test_tyres_stand_in_a_table_below_that_of_their_solver(solver):
         assert problems(text.replace(old, new))[0].startswith(line)
 
 
+def test_the_report_tells_both_parts_of_a_point_apart():
+    """And has the vehicle's own numbers in words."""
+    text = ECCENTRIC.replace("[0, 0]", '["0 m +/- 0.1 m", "0.2 m +/- 0.1 m"]')
+    text = text.replace("mass = 1500", 'mass = "1500 kg +/- 30 kg"')
+    text += '[propagate]\noutputs = ["a.delta_v"]\nsamples = 64\n'
+    page = answers(read_text(text.encode())).report("markdown")
+    for words in ("contact point, along x", "contact point, along y", "mass of A"):
+        assert page.count(f"| A: delta-V | variance from {words} |") == 1
+        assert page.count(f"| Inputs as stated | {words} |") == 1
+
+
 def test_the_report_says_what_is_stated_of_tyres():
-    """Beside each of their numbers; of a list as a whole."""
+    """Beside each of their numbers; of a list all of them in their order, as it is beside each."""
     text = ECCENTRIC + TYRES_OF_A.format("eccentric").replace("= 0.7", '= "0.6 .. 0.8"').replace(
         "[1, 1, 0, 0]", '[1, 1, 0, "0.1 .. 0.3"]'
     )
     page = answers(read_text(text.encode())).report("markdown")
     assert "| 0.7. Stated as 0.6 to 0.8, all values equally likely |" in page
-    assert page.count("Stated as 1, 1, 0, 0.1 to 0.3, all values equally likely |") == 4
+    stated = "Stated of all 4, in order: 1; 1; 0; 0.1 to 0.3, all values equally likely |"
+    assert page.count(stated) == 4
     whole = " ".join(page.split())
     assert "tyres of A: braking of the rear right wheel | 0.1 to 0.3" in whole
 

@@ -156,7 +156,7 @@ def test_an_area_and_a_slope_that_are_not_known_exactly() -> None:
     page = answers(read_text((text + "[propagate]\nsamples = 64\n").encode())).report("markdown")
     notes = page[page.index("## Notes") : page.index("## Figures")]
     assert "\nfriction of surface 1: Stated as 0.2 to 0.4" in notes
-    assert "\nslope of the ground along x, y: Stated as 1 to 2 %" in notes
+    assert "\nslope of the ground along x, y: Stated of both, in order: 1 to 2 %" in notes
 
 
 def test_without_outputs_delta_v_and_places_of_rest_are_asked_for() -> None:

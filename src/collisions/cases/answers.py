@@ -274,9 +274,11 @@ def _in_words(value: Any, given: bool = False) -> str:
         ]
         return f"{'' if given else 'Worked out by '}{value.named} from {'; '.join(parts)}"
     if isinstance(value, tuple):
-        whole = ", ".join(_in_words(part, given=True) for part in value)
-        stated = f"Stated as {whole}" if any(map(_in_words, value)) else ""
-        return whole if given else stated
+        parts = [_in_words(part, given=True) for part in value]
+        # It stands beside every one of them.
+        several = "both" if len(parts) == 2 else f"all {len(parts)}"
+        stated = f"Stated of {several}, in order: {'; '.join(parts)}"
+        return ", ".join(parts) if given else stated if any(map(_in_words, value)) else ""
     return str(value) if given else ""
 
 

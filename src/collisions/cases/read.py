@@ -434,7 +434,8 @@ def parse_uncertain(text: str, bounds: Callable[[str, str], Any] = uncertainty.U
     if found is None:
         return None
     one, sign, other, coverage = (part and part.strip() for part in found.groups())
-    units = [unit_as_written(part) for part in (one, other)]
+    # "nan" and "inf" are numbers, which are refused as such.
+    units = ["" if part in ("nan", "inf") else unit_as_written(part) for part in (one, other)]
     shares = [unit in ("%", "percent") for unit in units]
     if re.match(r"[^\W\d]|[%°]", max(units)) and (
         shares[0] != shares[1] or (units[0] != units[1] and "" in units)

@@ -83,6 +83,10 @@ class Names:
     def _argument(self, name: str) -> str:
         if name in ("va", "vb"):
             return f"speed_{name[1]}"
+        # As a case file has it.
+        label, dot, part = name.partition(".")
+        if dot and label in ("a", "b"):
+            return f"{part}_{label}"
         return _SYMBOLS.get(name, name)
 
 
@@ -93,12 +97,14 @@ def with_article(name: str) -> str:
 
 def _of_impact(impact: Impact) -> Iterable[tuple[str, tuple[str, str, float]]]:
     for of, what, names, numbers, kind in impact_inputs(impact):
-        for name, number in zip(names, numbers, strict=True):
+        parts = ("",) if len(names) == 1 else (", along x", ", along y")
+        for name, number, part in zip(names, numbers, parts, strict=True):
             if of == "contact":
                 words = "restitution" if name == "restitution" else what.partition(" (")[0]
-                yield name, (words, kind, number)
+                yield name, (f"{words}{part}", kind, number)
             else:
-                yield f"{name}_{of.lower()}", (about(what, of), kind, number)
+                words = about(what.partition(" (")[0], of)
+                yield f"{name}_{of.lower()}", (f"{words}{part}", kind, number)
     for label, vehicle in (("a", impact.a.before), ("b", impact.b.before)):
         before = f"of {label.upper()} before"
         yield f"speed_{label}", (f"speed {before}", "speed", float(vehicle.speed))
