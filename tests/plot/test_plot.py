@@ -1233,6 +1233,68 @@ def test_the_title_of_momenta_names_the_vehicles_that_have_names(names, lines):
     assert title.split("\n")[1:] == lines
 
 
+LOCKED = travel.Tyres(0.8, 1.0, 2.7, 1.5)
+WITH_TYRES = {"duration": 0.12, "tyres_a": LOCKED, "tyres_b": LOCKED}
+PUSHED = {"outside_b": (300.0, 2500.0, 100.0)}
+
+
+def acted_on(**more):
+    """Two slow cars at right angles, on which more than each other acts."""
+    a = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=-2.1, y=0.0, heading=0.0, vx=6.0)
+    b = col.Vehicle(mass=1250.0, yaw_inertia=1900.0, x=0.9, y=0.0, heading="90 deg", vy=3.0)
+    return col.eccentric(a, b, 0.1, normal=0.0, point=(0.0, 0.1), friction=0.3, **more)
+
+
+@pytest.mark.parametrize(
+    ("impact", "shown"),
+    [
+        (lambda: acted_on(**WITH_TYRES), {"lost.tyres"}),
+        (lambda: acted_on(**PUSHED), {"lost.outside"}),
+        (lambda: acted_on(**WITH_TYRES, **PUSHED), {"lost.tyres", "lost.outside"}),
+        (lambda: reconstruct.central(1500.0, 1500.0, vb=0.0, vb_after=1.2, restitution=0.1,
+            duration=0.1, drag_b=0.7), {"lost.outside"}),
+    ],
+)  # fmt: skip
+def test_what_tyres_and_outside_impulses_take_or_give_has_a_bar(impact, shown):
+    """So that what came in is what went out, and the last bar ends at zero."""
+    impact = impact()
+    axes = plot.energy(impact, units="si")
+    bars = {bar.get_gid(): bar for bar in axes.patches if bar.get_gid()}
+    assert {"lost.tyres", "lost.outside"} & bars.keys() == shown
+    total = impact.a.before.kinetic_energy + impact.b.before.kinetic_energy
+    last = bars["b.after"]
+    assert last.get_x() + last.get_width() == pytest.approx(0.0, abs=1e-9 * total)
+    if "lost.outside" in shown:
+        work = impact.a.outside_work + impact.b.outside_work
+        assert bars["lost.outside"].get_width() == pytest.approx(work, rel=1e-9)
+    named = [label.get_text() for label in axes.get_yticklabels()]
+    by_drag = impact.reconstruction is not None
+    assert ("lost by\nthe tyres" in named) == (by_drag or "lost.tyres" in shown)
+
+
+@pytest.mark.parametrize("together", [False, True])
+@pytest.mark.parametrize("pushed", [False, True])
+def test_the_tyres_of_planar_momentum_are_in_its_picture(together, pushed):
+    """What they give follows A and B before, and ends where A and B after end."""
+    more = {"outside_impulse": (2000.0, -1500.0)} if pushed else {}
+    after = {"course_a_after": 0.4, "speed_a_after": 8.0}
+    if not together:
+        after |= {"course_b_after": 0.7, "speed_b_after": 9.0}
+    found = reconstruct.momentum(1500.0, 1250.0, course_a=0.0, course_b=1.5, heading_a=0.0,
+        heading_b=1.5, together=together, **after, **WITH_TYRES, **more)  # fmt: skip
+    axes = plot.momentum(found, units="si")
+    arrows = vectors(axes)
+    assert "total" not in arrows
+    given = [
+        getattr(found, f"tyre_impulse_{axis}_a") + getattr(found, f"tyre_impulse_{axis}_b") + more
+        for axis, more in zip("xy", more.get("outside_impulse", (0.0, 0.0)), strict=True)
+    ]
+    assert arrows["outside"] == pytest.approx(given, rel=1e-7)
+    (text,) = [one for one in in_legend(axes) if one.startswith("outside")]
+    stated = " and the impulse that was stated" if pushed else ""
+    assert text.startswith(f"outside: given by the tyres{stated} ")
+
+
 def in_legend(axes):
     """The texts of the legend."""
     return [text.get_text() for text in axes.get_legend().get_texts()]

@@ -6,6 +6,7 @@ import json
 import math
 import random
 import re
+import warnings
 
 import numpy as np
 import pytest
@@ -382,3 +383,21 @@ def test_a_statement_has_the_units_of_its_page(units, a, b):
         text = " ".join(str(page).split())
         assert f"the speed of A would be {a}" in text
         assert f"the speed of B would be {b}" in text
+
+
+@pytest.mark.parametrize(("off", "says"), [(1e-9, True), (1e-8, True), (1e-3, False)])
+def test_a_normal_along_which_nearly_nothing_closes_has_no_restitution_to_rely_on(off, says):
+    """Square to the relative velocity before, but for this angle."""
+    instant = found()
+    x, y = (
+        instant.speed_a * function(instant.course_a) - instant.speed_b * function(instant.course_b)
+        for function in (math.cos, math.sin)
+    )
+    normal = math.atan2(y, x) + 0.5 * math.pi - off
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        assert found(normal=normal).closing_speed > 0.0
+        many = found(normal=normal, speed_a_after=np.array([11.0, 11.0]))
+    codes = [one.message.code for one in caught]
+    assert codes.count("ill_conditioned") == (2 if says else 0)
+    assert np.all(np.isfinite(many.restitution))

@@ -11,7 +11,7 @@ from typing import Any, Literal, TypeAlias, get_args
 
 from ..impact.impact import Impact
 from ..impact.inputs import PLACED
-from ..impact.reconstruction import as_bound
+from ..impact.reconstruction import as_bound, pushed_by_drag
 from ..impact.run import error_of
 from ..kernels.contact_laws import RULES
 from ..messages.errors import InputError, Status
@@ -353,7 +353,7 @@ def impact_inputs(
     for label, pushed in (("a", impact.inputs.outside_a), ("b", impact.inputs.outside_b)):
         if pushed is not None and any(pushed):
             what, name = f"impulse on {label.upper()} from outside", f"outside_{label}"
-            if origin is not None and origin.duration is not None:
+            if pushed_by_drag(origin):
                 what += ", worked out from its drag"
             yield (
                 "contact",

@@ -210,6 +210,11 @@ OF_CONTACT = {
 }
 
 
+def pushed_by_drag(origin: Reconstruction | None) -> bool:
+    """Whether the impulses from outside are those of tyres, worked out from a drag."""
+    return origin is not None and origin.duration is not None
+
+
 def number_of_text(text: str, name: str) -> float | None:
     """The number [SI] of a text that a reverse solver was given; None if it cannot be read, as its
     unit belongs to another registry, or is of another kind.

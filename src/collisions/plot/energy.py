@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from ..impact.impact import Impact
+from ..impact.reconstruction import pushed_by_drag
 from ..messages.errors import InputError
 from ..messages.hints import hinted
 from ..quantities.formatting import UnitSystem
@@ -18,11 +19,11 @@ _NEXT_TO_NOTHING = 1e-3
 @hinted
 def energy(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | None = None) -> Axes:
     """The energy balance: kinetic energy of A and B before, the losses along normal and tangent,
-    and what A and B have after.
+    what tyres and impulses from outside take or give, and what A and B have after.
 
     Every bar begins where the one above ends, so that the last ends at zero: what came in is what
-    went out. Kinetic energies depend on the frame of reference; the losses do not. A negative loss
-    is energy gained, and is drawn as such.
+    went out. Kinetic energies, and the work of an impulse from outside, depend on the frame of
+    reference; the losses do not. A negative loss is energy gained, and is drawn as such.
 
     Parameters
     ----------
@@ -36,8 +37,8 @@ def energy(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | None
     Returns
     -------
     matplotlib.axes.Axes
-        Bars by gid: "a.before", "b.before", "lost.normal", "lost.tangential", "lost.tyres" (only of
-        a time-resolved impact with tyres), "a.after", "b.after".
+        Bars by gid: "a.before", "b.before", "lost.normal", "lost.tangential", "lost.tyres" and
+        "lost.outside" (only where tyres or an impulse from outside act), "a.after", "b.after".
 
     Raises
     ------
@@ -63,6 +64,12 @@ def energy(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | None
     a, b = impact.a, impact.b
     names = who(0, a.before), who(1, b.before)
     tyres = a.tyre_loss + b.tyre_loss
+    work = a.outside_work + b.outside_work
+    outside = (
+        "lost by\nthe tyres"
+        if pushed_by_drag(impact.reconstruction)
+        else "lost to what\nacts from outside"
+    )
     before = _kinetic(a.before, "a"), _kinetic(b.before, "b")
     rows = [
         ("a.before", f"{names[0]} before", before[0], COLOURS[0], ""),
@@ -76,6 +83,7 @@ def energy(impact: Impact, *, axes: Axes | None = None, units: UnitSystem | None
             "...",
         ),
         *([("lost.tyres", "lost by\nthe tyres", -tyres, FORCE, "|||")] if tyres else []),
+        *([("lost.outside", outside, work, FORCE, "---")] if work else []),
         ("a.after", f"{names[0]} after", -_kinetic(a.after, "a"), COLOURS[0], "///"),
         ("b.after", f"{names[1]} after", -_kinetic(b.after, "b"), COLOURS[1], "///"),
     ]

@@ -8,6 +8,7 @@ import math
 from typing import Any, NamedTuple
 
 from ..impact.impact import Impact
+from ..impact.reconstruction import pushed_by_drag
 from ..messages.errors import InputError
 from ..messages.hints import hinted
 from ..quantities.formatting import UnitSystem
@@ -259,7 +260,9 @@ def _of_impact(impact: Impact) -> tuple[list[_Body], str]:
 
 
 def _of_solution(solution: MomentumSolution) -> tuple[list[_Body], str]:
-    """Both bodies of planar momentum, which has no names, and what was stated from outside."""
+    """Both bodies of planar momentum, which has no names, and what gives them momentum from
+    outside.
+    """
     need_one_case(solution, (MomentumSolution,), "plot.momentum")
     bodies = []
     for label in "ab":
@@ -278,8 +281,10 @@ def _of_solution(solution: MomentumSolution) -> tuple[list[_Body], str]:
                 size = mass * speed
                 found.append((size * math.cos(course), size * math.sin(course)))
         bodies.append(_Body("", True, found[0], found[1], rests))
-    pushed = solution.outside_impulse_x is not None
-    return bodies, "given by the impulse that was stated" if pushed else ""
+    return bodies, _given_by(
+        ["the tyres"] if solution.tyres else [],
+        ["the impulse that was stated"] if solution.outside_impulse_x is not None else [],
+    )
 
 
 def _common_normal(vectors: list[Place], longest: float) -> Place | None:
@@ -328,8 +333,16 @@ def _by_whom(impact: Impact) -> str:
             parts.append(f"{'AB'[index]}, of infinite mass,")
         elif side.before.pivot is not None:
             parts.append(f"the pivot of {'AB'[index]}")
-    if any(side.tyre_loss for side in (impact.a, impact.b)):
-        parts.append("the tyres")
-    if any(side.outside_x or side.outside_y for side in (impact.a, impact.b)):
-        parts.append("the impulse that was stated")
-    return f"given by {' and '.join(parts)}" if parts else ""
+    sides = (impact.a, impact.b)
+    pushed = any(side.outside_x or side.outside_y for side in sides)
+    by_drag = pushed and pushed_by_drag(impact.reconstruction)
+    return _given_by(
+        parts,
+        ["the tyres"] if by_drag or any(side.tyre_loss for side in sides) else [],
+        ["the impulse that was stated"] if pushed and not by_drag else [],
+    )
+
+
+def _given_by(*parts: list[str]) -> str:
+    names = [name for part in parts for name in part]
+    return f"given by {' and '.join(names)}" if names else ""

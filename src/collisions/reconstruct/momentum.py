@@ -45,6 +45,7 @@ from .common import (
     read_masses,
     state_instant,
     state_other,
+    warn_of_condition,
 )
 from .momentum_others import other_velocity
 from .momentum_solution import MomentumSolution, Sensitivity
@@ -175,7 +176,8 @@ def momentum(
     IllConditionedWarning
         The courses of the two unknown speeds are within 10 degrees of one line, or the momenta
         nearly cancel that an unknown course is to be found from, or a course is found within 10
-        degrees of a right angle to that of the unknown speed.
+        degrees of a right angle to that of the unknown speed. Or the closing speed along ``normal``
+        is below a millionth of the speeds.
     OutOfRangeWarning
         A speed came out negative: backwards along its course. Or, along ``normal``, the restitution
         is outside 0 to 1, or the vehicles did not approach and it is NaN. Or, with tyres, another
@@ -968,6 +970,13 @@ def _warn(
         "speed",
         sentence,
         closing_speed=closing,
+    )
+    speeds = sum(abs(found[name]) for name in _SPEEDS)
+    warn_of_condition(
+        known.cases.where(np.isfinite(e), np.divide(speeds, closing)),
+        "the courses and speeds",
+        "the restitution by more than 1",
+        "the normal is not that of this impact",
     )
     slack = rounding / closing
     what = "the restitution of the centres along the normal is"
