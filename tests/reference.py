@@ -318,11 +318,11 @@ def evaluate(scene: Scene, digits: int = 60) -> Answer:
             return Answer("no_slip_pulls")
         regime = passage.regime
         # Of what acts from outside so much has acted by the end of compression; or all of it where
-        # there is none with that.
+        # that has no end within the contact.
         for early in (1 / (1 + max(e, 0)), num(1)):
             left_n, left_t = closing + early * push_n, slip + early * push_t
             plastic = follow(mp, (k_nn, k_nt, k_tt), left_n, left_t, value, num(0))
-            if plastic:
+            if plastic and plastic.top[0] <= passage.pn:
                 break
     elif scene.rule == "critical_fraction":
         regime = "given"

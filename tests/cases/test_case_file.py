@@ -780,7 +780,6 @@ def test_the_examples_have_their_published_answers():
     )
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("option", ["--report", "--what-if", "--play"])
 def test_a_file_to_write_is_named_once(option, tmp_path, capsys):
     """Of two one would not be written, without a word."""
@@ -792,6 +791,7 @@ def test_a_file_to_write_is_named_once(option, tmp_path, capsys):
     assert not any(one.exists() for one in files)
 
 
+@pytest.mark.slow
 def test_the_command(tmp_path, capsys):
     """Its output in each form, the units, and the exit codes."""
     file = tmp_path / "case.toml"

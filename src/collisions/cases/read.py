@@ -93,9 +93,13 @@ _RANGE = re.compile(
     re.DOTALL,
 )
 _TOO_MANY = re.compile(r"(?<![\d_])\d[\d_]{4300}")  # digits in a row, which Python does not read
-# The parts of a key, and a whole one; the time to read a key grows as the square of their number.
-_PART = re.compile(r"""[\w-]++|"[^"\n]*+"|'[^'\n]*+'""")
-_KEY = re.compile(rf"(?:{_PART.pattern})(?:[ \t]*+\.[ \t]*+(?:{_PART.pattern}))*+")
+# The parts of a key, and a whole one at the beginning of a line, a head or a pair; the time to read
+# a key grows as the square of their number.
+_PART = re.compile(r"""[\w-]++|"(?:[^"\\\n]|\\.)*+"|'[^'\n]*+'""")
+_KEY = re.compile(
+    rf"(?:^|[\[{{,])[ \t]*+((?:{_PART.pattern})(?:[ \t]*+\.[ \t]*+(?:{_PART.pattern}))*+)",
+    re.MULTILINE,
+)
 _MOST_PARTS = 100
 _PAIR = '["1.2 m", "-0.4 m"]'
 _LARGEST_FILE = 1_000_000  # bytes
@@ -278,7 +282,7 @@ def read_text(data: bytes) -> Case:
         text = data.decode(
             "utf-16" if data.startswith((BOM_UTF16_LE, BOM_UTF16_BE)) else "utf-8-sig"
         )
-        if any(len(_PART.findall(key[0])) > _MOST_PARTS for key in _KEY.finditer(text)):
+        if any(len(_PART.findall(key[1])) > _MOST_PARTS for key in _KEY.finditer(text)):
             raise RecursionError
         document = tomllib.loads(text, parse_float=_float)
         if problems := list(_too_large(document)):

@@ -147,7 +147,7 @@ def _by_energy(page: Page, s: Symbols, k: Mobility) -> Expression | None:
     if s.impact.inputs.rule_value != 0.0:
         return _until_slip_stops(page, s, k)
     _by_rule(page, s, k)
-    return None
+    return _until_compressed(page, s, k, None)
 
 
 def _until_slip_stops(page: Page, s: Symbols, k: Mobility) -> Expression | None:
@@ -203,7 +203,7 @@ def _until_slip_stops(page: Page, s: Symbols, k: Mobility) -> Expression | None:
         page.say("The slip goes on to the end, so the impulse ratio stays.")
         page.equation("Normal impulse", s.normal, (1.0 + e) * g / soft)
         page.equation("Tangential impulse", s.tangential, ZERO.plus(way, mu * s.normal))
-        return None
+        return _until_compressed(page, s, k, None)
     holds = s.impact.regime == "sticking" or abs(coupling.value) <= mu.value * k.tangential.value
     if holds and not endless:
         page.at_most(Function("abs", coupling), mu * k.tangential)
@@ -249,13 +249,22 @@ def _until_slip_stops(page: Page, s: Symbols, k: Mobility) -> Expression | None:
     )
     page.equation("Normal impulse", s.normal, first + (w + s.separation) / soft_2)
     page.equation("Tangential impulse", s.tangential, first_t + ratio * (s.normal - first))
+    return _until_compressed(page, s, k, before)
+
+
+def _until_compressed(
+    page: Page, s: Symbols, k: Mobility, alone: Expression | None
+) -> Expression | None:
+    """The normal impulse until the end of compression: ``alone``, where nothing acts from
+    outside.
+    """
     if k.push[0] is ZERO:
-        return before
+        return alone
     if s.impact.complete:
         page.say(
-            "By the end of compression the impulses from outside have acted in part, taken as "
-            f"1/(1 + {page.symbol(s.e)}) of them. The same contact with that part is followed up "
-            "to there."
+            "By the end of compression a part of the impulses from outside has acted, taken as "
+            f"1/(1 + {page.symbol(s.e)}) of them, or all where that leaves no such end within the "
+            "contact. The same contact with that part is followed up to there."
         )
     return s.compression
 

@@ -8,6 +8,7 @@ import math
 from collections.abc import Iterator
 
 from ..impact.vehicle_result import VehicleResult
+from ..kernels.contact_laws import LAWS
 from ..quantities.directions import from_radians
 from ..reference import RECORDER_ACCURACY, restitution_range
 from ..vehicle.outlines import distance_outside, in_scene
@@ -225,6 +226,11 @@ def impulse_ratio(case: ImpactCase) -> Iterator[Measured]:
     "set here: friction takes energy; half a percent is less than what any speed is known to",
 )
 def friction_gain(case: ImpactCase) -> Iterator[Measured]:
+    followed = case.answer.law is not None and LAWS[case.answer.law].followed
+    if followed and case.answer.inputs.pushed:
+        # Of such a law what acts from outside shifts the slip, so that its share of the losses is
+        # an estimate.
+        return
     gain = -case.answer.energy_loss_tangential
     part = share(gain, case.answer.energy_absorbed) if gain > 0.0 else 0.0
     sentence = (

@@ -440,9 +440,13 @@ def until_compressed(
     if LAWS[inputs.law or BRACH].followed:
         early = 1.0 / (1.0 + select(e > 0.0, e, 0.0 * e))
         plastic = _plastic(inputs, answer, choice, early)
-        late = (plastic.status > Status.ENERGY_GAIN) & (refused ^ True)
+        ends = (plastic.status <= Status.ENERGY_GAIN) & (
+            plastic.normal_impulse <= answer.normal_impulse
+        )
+        late = (ends ^ True) & (refused ^ True)
         if inputs.pushed and np.any(late):
-            # Where friction leaves no compression with a part of the impulses from outside.
+            # With a part of the impulses from outside the compression does not end within the
+            # contact; where they come first, it does.
             plastic = _plastic(inputs, answer, choice, select(late, 1.0, early))
         # The plastic one may answer where the restitution itself was refused.
         compressed = [select(refused, math.nan, getattr(plastic, name)) for name in names]

@@ -217,7 +217,9 @@ class VehicleResult(Frozen, Summarized):
         moves = isinstance(self._answer, Passed) and self._inputs.geometry != "fixed"
         if not moves or at_point is None or inertia is None:
             return at_point
-        stays = math_or_numpy(inertia).isinf(inertia)
+        # Of a batch some may be impulses, which take no time.
+        took = self._answer.duration
+        stays = math_or_numpy(inertia).isinf(inertia) | math_or_numpy(took).isnan(took)
         with np.errstate(all="ignore"):
             size = hypot(*impulse)
             moment = inertia * self.delta_yaw_rate - self.tyre_moment

@@ -115,6 +115,9 @@ def cells(units: Any, texts: Iterable[Any] = ()) -> Cells:
     return Cells(units)
 
 
+_ROUND = 1e-12
+
+
 class Sentences:
     """How sentences about a case write its numbers: called with an SI number and its kind, in the
     units of the inputs.
@@ -154,8 +157,12 @@ class Sentences:
 
     def _bound(self, value: float, kind: str, figures: int, rounding: str) -> str:
         scale = self._system.scale(kind)
-        if math.isfinite(value * scale):
-            inside = Context(prec=figures, rounding=rounding).create_decimal(value * scale)
+        number = value * scale
+        # A round number that rounding left beside itself is that number.
+        if math.isfinite(number) and not math.isclose(
+            float(f"{number:.{figures}g}"), number, rel_tol=_ROUND
+        ):
+            inside = Context(prec=figures, rounding=rounding).create_decimal(number)
             value = float(inside) / scale
         return self(value, kind, figures)
 

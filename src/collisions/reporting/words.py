@@ -84,8 +84,8 @@ class Names:
         if name in ("va", "vb"):
             return f"speed_{name[1]}"
         # As a case file has it.
-        label, dot, part = name.partition(".")
-        if dot and label in ("a", "b"):
+        label, _, part = name.partition(".")
+        if name not in self._inputs and part and label in ("a", "b"):
             return f"{part}_{label}"
         return _SYMBOLS.get(name, name)
 
