@@ -938,7 +938,7 @@ def test_what_is_nested_too_deeply_is_refused(text):
     versions of Python. A file of any length is refused at once.
     """
     for depth in (3000, 450_000):
-        key = [".".join(part * depth) for part in ("a", ["'a'"])]
+        key = [".".join(part * depth) for part in ("a", ["'a'"], ['"\\""'])]
         for parts in [("[" * depth, "]" * depth)] if "{}{}" in text else [(one,) for one in key]:
             with pytest.raises(CaseError, match=r"nested too deeply|larger than 1 MB"), _promptly():
                 read_text(text.format(*parts).encode())

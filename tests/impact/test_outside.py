@@ -772,3 +772,54 @@ def test_a_push_along_the_tangent_leaves_the_work_along_the_normal():
     assert impact.energy_absorbed == pytest.approx(work, rel=1e-12)
     assert impact.energy_loss_normal == pytest.approx(0.75 * work, rel=1e-12)
     assert impact.energy_loss_tangential == pytest.approx(impact.energy_loss - 0.75 * work)
+
+
+def test_compression_ends_within_the_contact_whatever_acts():
+    """Where with a part of what acts from outside it would not, all of that comes first."""
+    a = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=-2.1, y=0.0, heading=0.0, vx=3.435146)
+    b = col.Vehicle(
+        mass=1250.0, yaw_inertia=1900.0, x=0.9, y=-1.449387, heading="90 deg", vy=-11.488038
+    )
+    pushes = {"outside_a": (53.37, 584.66, 460.55), "outside_b": (938.92, 89.65, -514.24)}
+    contact = {"normal": 0.0, "point": (0.0, 0.1), "law": "stronge", **pushes}
+    for friction in (math.inf, np.array([0.1, math.inf])):
+        impact = col.eccentric(a, b, 0.6, friction=friction, **contact)
+        assert np.all(impact.compression_impulse > 0.0)
+        assert np.all(impact.restitution_impulse > 0.0)
+        for index in range(np.size(friction)):
+            one = impact if np.ndim(friction) == 0 else impact.case(index)
+            page = explain(one, form="text")
+            assert "taken as 1/(1 + e) of them" in " ".join(page.split())
+
+
+@pytest.mark.slow
+def test_what_acts_from_outside_under_stronge_is_explained():
+    """Every regime: the derivation gives what the solver does, or raises."""
+    rng = random.Random(45)
+    regimes, within = set(), []
+    for _ in range(150):
+        a = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=-2.1, y=0.0, vx=rng.uniform(3.0, 15.0))
+        b = col.Vehicle(mass=1250.0, yaw_inertia=1900.0, x=0.9, y=rng.uniform(-1.5, 1.5),
+            vy=rng.uniform(-12.0, 12.0))  # fmt: skip
+        pushes = {
+            f"outside_{label}": tuple(rng.gauss(0.0, 600.0) for _ in range(3)) for label in "ab"
+        }
+        try:
+            impact = col.eccentric(
+                a,
+                b,
+                rng.choice((0.0, 0.2, 0.6)),
+                normal=0.0,
+                point=(0.0, 0.1),
+                friction=rng.choice((0.0, 0.1, 0.4, 2.0, math.inf)),
+                law="stronge",
+                **pushes,
+            )
+        except col.CollisionsError:
+            continue
+        explain(impact, form="text")
+        regimes.add(impact.regime)
+        within.append(impact.compression_impulse <= impact.normal_impulse * (1.0 + 1e-12))
+    assert regimes == {"sliding", "sticking", "reversing", "frictionless"}
+    assert all(within)
+    assert len(within) > 100

@@ -380,6 +380,21 @@ def test_the_arm_times_the_impulse_is_the_moment_that_came_about(geometry, pull)
     assert many.a.gamma[1] == 1.0
 
 
+def test_of_a_batch_of_solve_an_impulse_has_its_arm_at_the_point():
+    """Also beside cases that were followed in time."""
+    a = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=-2.1, y=0.0, heading=0.0, vx=6.0)
+    b = col.Vehicle(mass=1250.0, yaw_inertia=1900.0, x=0.9, y=0.4, heading="90 deg", vy=3.0)
+    contact = {"normal": 0.0, "point": (0.0, 0.1), "friction": 0.3, "duration": 0.1}
+    accepted = np.array([0.0, 1.0, 50.0])
+    many = col.solve(a, b, 0.1, tolerance=accepted, **contact)
+    assert len(set(many.model)) == 3
+    for index, limit in enumerate(accepted):
+        one = col.solve(a, b, 0.1, tolerance=limit, **contact)
+        for mine, alone in ((many.a, one.a), (many.b, one.b)):
+            assert mine.moment_arm[index] == pytest.approx(alone.moment_arm, rel=1e-7)
+            assert mine.gamma[index] == pytest.approx(alone.gamma, rel=1e-7)
+
+
 # Fixed geometry without tyres: energetic restitution
 
 

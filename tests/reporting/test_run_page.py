@@ -16,6 +16,7 @@ import pytest
 import collisions as col
 from collisions.reporting import options, replay
 from collisions.reporting.scene_words import input_in_words, result_in_words
+from collisions.reporting.words import Names
 from collisions.scene import Contact, Mover, Run, Scene
 from collisions.travel import Tyres
 from collisions.uncertainty import Normal, Uniform, propagate
@@ -489,3 +490,19 @@ def test_a_run_among_other_results_is_refused_with_its_own_page() -> None:
     impact = col.linear_central(col.Vehicle(mass=1500.0, vx=10.0), col.Vehicle(mass=1200.0), 0.1)
     with pytest.raises(col.InputError, match=r"write report\(run\)"):
         col.report([impact, slid()])
+
+
+@pytest.mark.parametrize("names", [("van", "car"), ("a", "b")])
+def test_inputs_of_a_scene_have_words_whatever_its_movers_are_called(names):
+    """Also where they are called as the vehicles of a case file."""
+    movers = {
+        name: Mover(
+            col.Vehicle(mass=1500.0, vx=vx, x=x, y=0.0, heading=0.0), outline=(4.5, 1.8), drag=0.3
+        )
+        for name, vx, x in zip(names, (9.0, 0.0), (-6.0, 0.0), strict=True)
+    }
+    hit = Contact(*names, normal=0.0, model="linear_central", at="touch", restitution=0.1)
+    words = Names(Scene(movers=movers, contacts=[hit]).run())
+    for path in (f"{names[0]}.mass", f"{names[1]}.x", f"{names[0]}.drag"):
+        assert words.of_input(path, -1e9, 1e9) != path
+        assert words.number_of(path)[0] != ""
