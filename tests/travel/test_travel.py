@@ -524,7 +524,7 @@ def refusal(call):
             10,
             {"drag": 0.02, "grade": -0.05},
             "contradictory",
-            "from rest already to 2.42569 m/s, and is to end at 0 m/s; the square of its speed",
+            "from rest already to 2.4257 m/s, and is to end at 0 m/s; the square of its speed",
         ),
         (
             [5, 10],
