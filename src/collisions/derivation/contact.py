@@ -147,7 +147,7 @@ def _by_energy(page: Page, s: Symbols, k: Mobility) -> Expression | None:
     if s.impact.inputs.rule_value != 0.0:
         return _until_slip_stops(page, s, k)
     _by_rule(page, s, k)
-    return _until_compressed(page, s, k, None)
+    return _until_compressed(page, s, k, s.closing / k.normal)
 
 
 def _until_slip_stops(page: Page, s: Symbols, k: Mobility) -> Expression | None:
@@ -203,7 +203,7 @@ def _until_slip_stops(page: Page, s: Symbols, k: Mobility) -> Expression | None:
         page.say("The slip goes on to the end, so the impulse ratio stays.")
         page.equation("Normal impulse", s.normal, (1.0 + e) * g / soft)
         page.equation("Tangential impulse", s.tangential, ZERO.plus(way, mu * s.normal))
-        return _until_compressed(page, s, k, None)
+        return _until_compressed(page, s, k, g / soft)
     holds = s.impact.regime == "sticking" or abs(coupling.value) <= mu.value * k.tangential.value
     if holds and not endless:
         page.at_most(Function("abs", coupling), mu * k.tangential)

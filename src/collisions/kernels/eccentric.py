@@ -300,7 +300,9 @@ def slip_and_losses(
         mean = passage.separation / safe_divisor(closing != 0.0, closing)
         of_mean = mean, closing, slip, passage.slip_after, struck.sticks, 0.0, normal, tangential
         _, _, loss, gains = energy_losses(law, *of_mean, None, eps, passage.separation)
-        loss_n = passage.loss_n - 0.5 * (struck.push_n * normal)
+        along_n = passage.loss_n - 0.5 * (struck.push_n * normal)
+        # Without friction it is all there is, and the sum has more digits.
+        loss_n = select(tangential == 0.0, loss, along_n)
         return passage.separation, passage.slip_after, loss_n, loss - loss_n, loss, gains
     beyond_sticking = select(
         struck.sticks,
