@@ -321,7 +321,8 @@ def _origin(found: Any, velocity: Any) -> Reconstruction | None:
 def _number_if_known(found: Any, name: str, known: bool) -> Any:
     """What was known of a contact with a duration, a number or a batch; None where it was not."""
     number = read_strict(found)
-    if not (isinstance(number, np.ndarray) or _is_number(number) if known else number is None):
+    given = isinstance(number, np.ndarray) or _is_number(number)
+    if not (given or (number is None and not known)):
         raise bad_record(
             f"{name} of its reconstruction is {shown(found)}, and is {'' if known else 'not '}"
             "among what was known"
