@@ -631,6 +631,28 @@ def test_the_own_figures_of_an_answer_are_no_finding_whatever_else_acts(impact):
     )
 
 
+def test_parts_of_a_loss_that_are_estimates_are_said_to_be():
+    """Under a law that follows the slip, which what acts from outside shifts; the sum is exact."""
+    impact = slow(
+        b=col.Vehicle(
+            mass=1250.0, yaw_inertia=1900.0, x=0.9, y=0.48885, heading="90 deg", vy=0.27336
+        ),
+        law="stronge",
+        outside_a=(-674.07, -1086.1, 864.12),
+        outside_b=(511.08, 37.15, 950.21),
+    )
+    assert impact.energy_loss_tangential < 0.0
+    tight = {"friction_gain": 1e-9}
+    (finding,) = of("friction_gain", impact, limits=tight)
+    assert "the parts of the loss are estimates, and only their sum is exact" in finding.sentence
+    before, after = (
+        sum(getattr(side, when).kinetic_energy for side in (impact.a, impact.b))
+        for when in ("before", "after")
+    )
+    work = impact.a.outside_work + impact.b.outside_work
+    assert impact.energy_loss == pytest.approx(before + work - after, rel=1e-9)
+
+
 @pytest.mark.parametrize("pushed", [{}, {"outside_b": (0.0, -2500.0)}, SLOW], ids=str)
 def test_planar_momentum_compares_crush_with_what_the_contact_took(pushed):
     """Of the same crash forward: what the contact lost and what turns after, which momentum does

@@ -226,17 +226,20 @@ def impulse_ratio(case: ImpactCase) -> Iterator[Measured]:
     "set here: friction takes energy; half a percent is less than what any speed is known to",
 )
 def friction_gain(case: ImpactCase) -> Iterator[Measured]:
-    followed = case.answer.law is not None and LAWS[case.answer.law].followed
-    if followed and case.answer.inputs.pushed:
-        # Of such a law what acts from outside shifts the slip, so that its share of the losses is
-        # an estimate.
-        return
-    gain = -case.answer.energy_loss_tangential
-    part = share(gain, case.answer.energy_absorbed) if gain > 0.0 else 0.0
+    impact = case.answer
+    gain = -impact.energy_loss_tangential
+    part = share(gain, impact.energy_absorbed) if gain > 0.0 else 0.0
+    followed = impact.law is not None and LAWS[impact.law].followed
+    why = (
+        "what acts from outside shifts the slip before the contact, and counts in proportion to "
+        "the normal impulse in the energies, so that the parts of the loss are estimates, and only "
+        "their sum is exact"
+        if followed and impact.inputs.pushed
+        else "the slip turns round during the contact, which one impulse ratio does not tell"
+    )
     sentence = (
         f"the tangential impulse adds {case.text(gain, 'energy')}, {percent(part, 1)} of the "
-        "energy absorbed, where friction can only take it: the slip turns round during the "
-        "contact, which one impulse ratio does not tell"
+        f"energy absorbed, where friction can only take it: {why}"
     )
     yield Measured(part, sentence)
 
