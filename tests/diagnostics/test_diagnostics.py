@@ -631,6 +631,44 @@ def test_the_own_figures_of_an_answer_are_no_finding_whatever_else_acts(impact):
     )
 
 
+def test_tyres_do_not_hide_a_contact_that_gives_energy():
+    """Of planar momentum: all together lose some, as the tyres take more than the contact gives."""
+    known = {"course_a": 0.0, "course_b": 1.5, "heading_a": 0.0, "heading_b": 1.5}
+    known |= SLOW | {"duration": 0.15}
+    ends = {"course_a": (-0.3, 1.0), "course_b": (0.3, 1.6), "speed_a": (1, 6), "speed_b": (1, 6)}
+    counts, rng = {"gives": 0, "takes": 0}, random.Random(3)
+
+    def velocity(solution, of, when):
+        course = getattr(solution, f"course_{of}{when}")
+        size = getattr(solution, f"speed_{of}{when}")
+        return size * np.array([math.cos(course), math.sin(course)])
+
+    for _ in range(250):
+        after = {f"{name}_after": rng.uniform(*between) for name, between in ends.items()}
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", col.CollisionsWarning)
+                solution = reconstruct.momentum(1500.0, 1250.0, **known, **after)
+        except col.CollisionsError:
+            continue
+        if not solution.ok:
+            continue
+        contact = solution.translational_energy_loss
+        for of in "ab":
+            push = [getattr(solution, f"tyre_impulse_{axis}_{of}") for axis in "xy"]
+            contact += (
+                0.5
+                * np.array(push)
+                @ (velocity(solution, of, "") + velocity(solution, of, "_after"))
+            )
+        findings = [one for one in diagnose(solution) if one.code == "energy_gain"]
+        assert [one.measured for one in findings] == (
+            [pytest.approx(-contact, rel=1e-9)] if contact < 0.0 else []
+        )
+        counts["gives" if findings else "takes"] += 1
+    assert min(counts.values()) > 3
+
+
 def test_parts_of_a_loss_that_are_estimates_are_said_to_be():
     """Under a law that follows the slip, which what acts from outside shifts; the sum is exact."""
     impact = slow(

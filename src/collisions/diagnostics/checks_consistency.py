@@ -23,6 +23,8 @@ _LEVER_TOL = math.sin(math.radians(10.0))
 # Slower than this, in m/s, a course tells little; faster than this, in rad/s, a vehicle spins.
 _SLOW, _SPINNING = 1.0, 0.5
 _BACKWARDS = math.radians(135.0)
+# Of the work of tyres: an energy below it is none.
+_ROUNDING = 1e-9
 
 
 @finding(
@@ -31,9 +33,13 @@ _BACKWARDS = math.radians(135.0)
     f'eq 7 of the paper; "the crash created energy", {MESSAGES}',
 )
 def energy_gain(case: Case) -> Iterator[Measured]:
-    gain = 0.0 if case.answer.ok else -_energy_loss(case)
+    gain, whose = 0.0 if case.answer.ok else -_energy_loss(case), "the impact ends"
+    if isinstance(case, MomentumCase) and case.answer.ok and case.answer.tyres:
+        hidden = -_lost_in_contact(case)[1]
+        if hidden > _ROUNDING * abs(hidden + _energy_loss(case)):
+            gain, whose = hidden, "without what the tyres took the contact ends"
     yield Measured(
-        gain, f"the impact ends with {case.text(gain, 'energy')} more than it began with; none can"
+        gain, f"{whose} with {case.text(gain, 'energy')} more than it began with; none can"
     )
 
 
