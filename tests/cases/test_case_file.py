@@ -250,6 +250,7 @@ def test_the_report_tells_both_parts_of_a_point_apart():
         assert page.count(f"| Inputs as stated | {words} |") == 1
 
 
+@pytest.mark.slow
 def test_the_report_says_what_is_stated_of_tyres():
     """Beside each of their numbers; of a list all of them in their order, as it is beside each."""
     text = ECCENTRIC + TYRES_OF_A.format("eccentric").replace("= 0.7", '= "0.6 .. 0.8"').replace(
@@ -371,6 +372,7 @@ def test_a_warning_of_few_cases_is_among_the_statements_of_the_record():
     assert found["warnings"] == []
 
 
+@pytest.mark.slow
 def test_bounds_alone_give_bounds():
     """Intervals are no distributions, and nothing is drawn from them."""
     text = REAR_END.replace("0.4", "{ Interval = { low = 0.2, high = 0.4 } }")
@@ -468,6 +470,7 @@ def test_report_of_a_posterior(tmp_path, capsys):
     )
 
 
+@pytest.mark.slow
 def test_two_answers_are_told_apart():
     """Both are printed; a report or a range needs to know which."""
     body = "yaw_inertia = {}\nx = {}\ny = {}\n"
@@ -524,6 +527,7 @@ def test_an_answer_that_is_not_there_is_refused_for_every_study():
         assert problems(text + study) == ["answer: is 2, and 1 fit; write a number from 1 to 1"]
 
 
+@pytest.mark.slow
 def test_cases_with_another_number_of_answers_are_no_cases_without():
     """Three fit as it is stated; where two have vanished, which the third is cannot be told."""
     text = (
@@ -544,6 +548,7 @@ def test_cases_with_another_number_of_answers_are_no_cases_without():
     )
 
 
+@pytest.mark.slow
 def test_the_answer_that_was_asked_for_is_warned_of_alone():
     """Of two answers B goes backwards in the second: the first is not warned of, alone or over its
     errors.
@@ -932,6 +937,7 @@ def test_the_text_is_that_of_any_editor():
             read_text(data)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", ["x = {}{}", "{} = 1", "[{}]\nx = 1"])
 def test_what_is_nested_too_deeply_is_refused(text):
     """Lists in lists, and keys and heads of tables of many parts; fewer than here are read by some
@@ -1022,6 +1028,7 @@ def test_the_cures_of_messages_work_in_a_file():
     )
 
 
+@pytest.mark.slow
 def test_a_study_warns_once_with_the_number_of_its_cases():
     """A speed that comes out backwards in each call of the study is one line; without a study it
     has the units of the file.
@@ -1143,6 +1150,7 @@ def test_notes_of_the_file_stand_beside_what_it_states():
     ).report("markdown")
 
 
+@pytest.mark.slow
 def test_both_pages_or_none(tmp_path, capsys):
     """A page that cannot be made or written leaves neither, says so, and the results are printed
     all the same.
@@ -1299,6 +1307,7 @@ def test_the_share_of_a_normal_distribution_leaves_its_unit():
     assert found.sd == pytest.approx(90 / 1.959964 * 0.45359237, rel=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "study", ["", '[posterior.observed]\n"a.delta_v" = "20 km/h +/- 2 km/h"\n']
 )
@@ -1675,6 +1684,7 @@ def test_what_is_known_from_one_side_has_a_range_with_one_end():
     assert "known from one side only" in line
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no disk that is always full")
 @pytest.mark.parametrize("arguments", [["new"], [str(CASES / "us_units.toml")]])
 def test_a_disk_that_is_full_is_named(arguments):

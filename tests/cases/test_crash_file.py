@@ -87,6 +87,7 @@ def test_a_file_gives_what_the_scene_gives() -> None:
     assert run.rest["B"].x == row().run().rest["B"].x
 
 
+@pytest.mark.slow
 def test_every_part_of_a_scene_has_its_table() -> None:
     tyres = "[mover.tyres]\nfriction = 0.8\nlock = [1, 1, 0, 0]\nwheelbase = 2.6\ntrack = 1.5\n"
     text = ROW.replace("drag = 0.7\n", tyres).replace("heading = 0\n", "heading = 0\nname = ''\n")
@@ -115,6 +116,7 @@ def test_every_part_of_a_scene_has_its_table() -> None:
     assert run == scene.run(tolerance=1e-4)
 
 
+@pytest.mark.slow
 def test_uncertain_numbers_have_the_paths_of_the_scene() -> None:
     """As ``propagate`` takes them; those that are shared are one."""
     text = ROW.replace('"50 km/h"', '"50 km/h +/- 3 km/h"').replace(
@@ -147,6 +149,7 @@ def test_uncertain_numbers_have_the_paths_of_the_scene() -> None:
     assert re.search(r"position x of B at rest:\*\* [\d.]+ to [\d.]+ m \(95 %\)", page)
 
 
+@pytest.mark.slow
 def test_an_area_and_a_slope_that_are_not_known_exactly() -> None:
     text = ROW + (
         '[[surface]]\ncorners = [[2, -5], [9, -5], [9, 5]]\nfriction = "0.2 .. 0.4"\n'
@@ -214,6 +217,7 @@ def test_what_was_observed_leads_back_by_fit_or_posterior() -> None:
     )
 
 
+@pytest.mark.slow
 def test_the_same_table_of_observations_holds_for_one_impact() -> None:
     text = (
         '[a]\nmass = 1500\nvx = "10 m/s .. 20 m/s"\n[b]\nmass = 1200\n[linear_central]\n'
@@ -290,6 +294,7 @@ def test_a_result_that_is_none_is_named_with_the_nearest(table: str, key: str) -
     assert line.startswith(f"{key}: the scene has no 'B.rest.z'; near it are B.rest.")
 
 
+@pytest.mark.slow
 def test_an_impact_by_its_number_is_that_of_the_file_as_written() -> None:
     """Three cars in a row: below 18 m/s the rear one comes second."""
     movers = "".join(

@@ -27,6 +27,7 @@ from collisions.kernels.elementwise import FINITE
 from collisions.travel import Tyres
 from scenes import BESIDE
 from strategies import other_registry
+from variants import one_in
 
 # Rounding of the same formula in another order, in shares of the sizes of its terms: a few hundred
 # operations of 2**-53.
@@ -325,7 +326,7 @@ PUSHED = {
 }
 
 
-@pytest.mark.parametrize("name", [*SCENES, *PUSHED])
+@pytest.mark.parametrize("name", one_in(4, [*SCENES, *PUSHED]))
 def test_every_answer_has_an_equation(name, monkeypatch):
     """Or a sentence that is checked like one; but not what was found backwards, and what a body of
     infinite mass keeps.
@@ -470,7 +471,7 @@ def exact(equations):
     return len(equations)
 
 
-@pytest.mark.parametrize("index", range(len(SCENES)))
+@pytest.mark.parametrize("index", one_in(4, range(len(SCENES))))
 def test_every_line_gives_the_number_of_the_result(index, equations):
     """All digits give all digits, and printed digits give the printed ones, each scene in one
     system of units.
@@ -953,6 +954,7 @@ def test_markdown_and_text_have_the_same_numbers():
         assert plain_results == marked_results
 
 
+@pytest.mark.slow
 def test_the_same_for_the_same():
     """Twice, and after a round trip through its record."""
     impact = crossroads()
@@ -1140,6 +1142,7 @@ def test_a_term_of_0_is_not_written_where_friction_passes_the_slip(solver, frict
     assert not re.search(r"1 (kN\*s|kJ|lbf\*s|ft\*lbf) = [\d.]+ (km/h|mph)[;.]", text)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("method", "restitution", "held"),
     [
@@ -1231,6 +1234,7 @@ def test_an_uncertainty_of_nothing_known_is_refused(known, kind, code, said):
     assert code in (None, caught.value.code)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("given", ["restitution", "a.before.vx", "b_before_speed", "a.tyre_loss"])
 def test_an_uncertainty_of_what_is_not_printed_is_refused(given):
     """What was given to a forward impact is none of its answers, and would be left out in silence;
@@ -1773,6 +1777,7 @@ def test_what_is_read_out_is_derived(name, units):
         assert held == (f"{label} has an infinite mass, so its delta-V is 0." in text)
 
 
+@pytest.mark.slow
 def test_pdof_of_a_wall_and_of_a_pinned_body():
     """The push on a body that does not move freely is that of the contact, opposite to what the
     other one gets.
@@ -1960,6 +1965,7 @@ def test_the_units_are_those_of_the_inputs():
     assert explain(fit) == explain(fit, units="si")
 
 
+@pytest.mark.slow
 def test_angles_given_in_degrees_are_printed_in_degrees():
     """Beside speeds in m/s too, of which no system has both; a yaw rate is in the unit that it was
     given in.

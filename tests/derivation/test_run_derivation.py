@@ -67,6 +67,7 @@ def test_a_vehicle_at_rest_without_a_heading_takes_no_energy(
     assert "nan" not in page.split()
 
 
+@pytest.mark.slow
 def test_places_of_rest_are_those_of_the_run() -> None:
     run = three_cars()
     page = col.explain(run, units="us", form="text")
@@ -91,6 +92,7 @@ def test_both_forms_and_what_is_refused() -> None:
         col.explain(coasting(), form="latex")
 
 
+@pytest.mark.slow
 def test_what_limits_a_run_stands_before_its_impacts() -> None:
     """In the units of the page, and every finding once."""
     run = three_cars()

@@ -24,6 +24,7 @@ from collisions.kernels import contact_laws
 from collisions.reporting import replay, report
 from collisions.travel import Tyres
 from scenes import FAMILIES, LAWS, RULES, draw, solved
+from variants import one_in
 
 PACK = Path(__file__).resolve().parent.parent.parent / "validation"
 CAR = {"mass": 1500.0, "yaw_inertia": 2600.0, "heading": 0.0}
@@ -394,7 +395,7 @@ def test_every_finding_vanishes(code):
     assert of(code, impact, **options) == []
 
 
-@pytest.mark.parametrize("code", LIMITS)
+@pytest.mark.parametrize("code", one_in(4, LIMITS))
 def test_every_limit_is_respected(code):
     """Just beyond what was measured nothing is found, just within it is; an infinite one (0 from
     below) switches it off.
@@ -597,6 +598,7 @@ def slow(solve=col.eccentric, b=None, **more):
     return solve(a, b, 0.1, normal=0.0, point=(0.0, 0.1), friction=0.3, **more)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "impact",
     [
@@ -631,6 +633,7 @@ def test_the_own_figures_of_an_answer_are_no_finding_whatever_else_acts(impact):
     )
 
 
+@pytest.mark.slow
 def test_tyres_do_not_hide_a_contact_that_gives_energy():
     """Of planar momentum: all together lose some, as the tyres take more than the contact gives."""
     known = {"course_a": 0.0, "course_b": 1.5, "heading_a": 0.0, "heading_b": 1.5}
@@ -990,6 +993,7 @@ def test_speeds_backwards_and_units_of_momentum():
     )
 
 
+@pytest.mark.slow
 def test_a_contact_followed_in_time_has_its_own_duration_and_drag():
     """With a stiffness in N/m that was meant in kN/m it lasts seconds; 7 m/s² is no drag."""
     a = col.Vehicle(mass=1600.0, yaw_inertia=2650.0, x=-2.1, y=0.0, heading=0.0, vx=13.4)
@@ -1070,6 +1074,7 @@ def test_what_was_given_with_a_unit_is_not_asked_for_another():
     assert "meant?." not in page
 
 
+@pytest.mark.slow
 def test_one_of_two_answers():
     """Both say that there are two, also when replayed; the others of a batch are counted one by
     one.
@@ -1094,6 +1099,7 @@ def test_one_of_two_answers():
     assert many[0].to_columns()["reconstruction.answers"] == [2, 0]
 
 
+@pytest.mark.slow
 def test_several_origins_of_one_end_say_how_many_they_are():
     """Friction of 0.3 leads to one end from slides either way and from a contact that stuck: three,
     and all say so.
@@ -1131,6 +1137,7 @@ def test_several_origins_of_one_end_say_how_many_they_are():
     assert not many.reconstruction.answers.flags.writeable
 
 
+@pytest.mark.slow
 def test_the_ends_of_a_range_are_two_of_any_number():
     """A contact that ended without slip under "brach" fits every slip between; also
     when replayed.
@@ -1190,6 +1197,7 @@ def test_a_normal_that_cannot_be_in_degrees_is_not(normal):
     assert of("suspect_angle", square(normal=normal)) == []
 
 
+@pytest.mark.slow
 def test_the_number_of_a_normal_goes_with_the_impact():
     """Through every solver, pickle, record and report; in a batch case by case; the impact is that
     of its vector.
@@ -1390,6 +1398,7 @@ def test_tyres_count_in_minor_impacts_only():
         assert bool(of("tyre_impulse", rear_end(2.0 * delta_v, 0.0))) == is_minor
 
 
+@pytest.mark.slow
 def test_tyres_are_no_finding_on_most_ordinary_impacts():
     """Cars that close at 10 to 80 km/h, off their centres and across: few, all below 45 km/h, and
     nearly all below 20.
@@ -1854,7 +1863,7 @@ def test_no_finding_is_always_there(kind):
 # Units of the sentences.
 
 
-@pytest.mark.parametrize("code", LIMITS)
+@pytest.mark.parametrize("code", one_in(4, LIMITS))
 def test_sentences_are_in_the_units_asked_for(code):
     """The findings are the same but for their words; no unit of another system is among them."""
     impact, options = CASES[code][0]()
@@ -2428,6 +2437,7 @@ def test_places_with_units_are_not_suspected_of_being_feet():
     ]
 
 
+@pytest.mark.slow
 def test_a_change_of_delta_v_that_both_vehicles_share_is_named_of_a():
     """One impulse moves both by the same share, of which rounding makes one the larger."""
     named = [

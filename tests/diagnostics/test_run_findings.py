@@ -41,6 +41,7 @@ def test_each_impact_has_its_own_findings_with_its_number_and_time() -> None:
     assert gap.measured == pytest.approx(0.35, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_what_the_scene_leaves_open_comes_last() -> None:
     scene = three_cars().scene
     run = Scene(
@@ -53,6 +54,7 @@ def test_what_the_scene_leaves_open_comes_last() -> None:
     assert last.impact is None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("given", ["90 deg", math.pi / 2.0])
 def test_no_unit_is_asked_of_what_the_scene_worked_out(given: Any) -> None:
     """A car that is struck, at 100 mph, spins by more than a turn before it meets a truck."""
@@ -116,6 +118,7 @@ def test_evidence_of_one_impact_is_refused() -> None:
         col.explain(many)
 
 
+@pytest.mark.slow
 def test_what_would_move_each_impact_is_that_of_the_impact() -> None:
     """In order of the impacts, with the names of the vehicles, in the report too."""
     run = three_cars()

@@ -199,6 +199,7 @@ def test_a_range_that_is_not_understood_is_no_number(blind):
             number(text)
 
 
+@pytest.mark.slow
 def test_predictions_are_those_of_the_command(blind, capsys):
     """The case file answered by ``python -m collisions`` gives the ranges of the predictor, which
     reads it by itself.
@@ -483,6 +484,7 @@ def test_the_library_has_what_the_misses_teach(blind, committed):
     assert half == pytest.approx(ASIDE, abs=0.01)
 
 
+@pytest.mark.slow
 def test_pairs_that_violate_momentum_are_found(blind):
     """Of the measured changes of velocity of the staged crashes, by what they leave over."""
     found = set()
@@ -562,6 +564,7 @@ def test_tyres_take_what_locked_wheels_can_take(blind):
     assert smooth.a.delta_v == pytest.approx(levels.impact(numbers).a.delta_v, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_wheels_are_guesses_of_their_own(blind):
     """None of them is among the fixed inputs, and no level that was first committed takes one."""
     levels = blind["levels"]
@@ -902,6 +905,7 @@ def fiala(slip, friction):
     return friction * (1 - (1 - min(1.0, 9.5 * math.tan(slip) / (3 * friction))) ** 3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("friction", [0.6, 0.8])
 def test_the_tyre_model_is_not_what_the_heading_differs_by(blind, friction):
     """Integrated here: with either force vehicle 2 ends within a degree; ``simulate`` agrees."""

@@ -21,6 +21,7 @@ def scripts():
     return benchmarks("run_outs", "run_out_coverage", "run_out_tables")
 
 
+@pytest.mark.slow
 def test_the_tables_are_made_of_the_numbers_that_were_written(scripts):
     """Every row is there, and what is bold is below 95 %."""
     _, coverage, tables = scripts

@@ -14,6 +14,7 @@ def scripts():
     return benchmarks("scene_ranks", "scene_ranks_tables")
 
 
+@pytest.mark.slow
 def test_the_table_is_made_of_the_rows(scripts):
     script, tables = scripts
     found = tables.load()
@@ -26,6 +27,7 @@ def test_the_table_is_made_of_the_rows(scripts):
     assert str(len(numbers)) in tables.setting(found)
 
 
+@pytest.mark.slow
 def test_the_truths_are_drawn_with_the_seed_of_the_scene(scripts):
     script, tables = scripts
     for row in tables.load()["rows"][:20]:
@@ -35,6 +37,7 @@ def test_the_truths_are_drawn_with_the_seed_of_the_scene(scripts):
         assert truth == pytest.approx(row["truth"], rel=1e-12)
 
 
+@pytest.mark.slow
 def test_ranks_are_even_and_ranges_hold(scripts):
     """No range holds too seldom, and no ranks are more uneven than one in ten thousand."""
     _, tables = scripts

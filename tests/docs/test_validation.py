@@ -126,6 +126,7 @@ def test_every_record_is_in_exactly_one_table_or_list(found):
     assert set(placed) == set(found["records"])
 
 
+@pytest.mark.slow
 def test_a_record_left_out_or_counted_twice_stops_the_runner(scripts, found):
     """The runner itself refuses."""
     run = scripts["run"]

@@ -177,6 +177,7 @@ def test_few_cases_and_many_have_the_same_bits(law, refusing):
             assert joined == values[: len(joined)], (name, size)
 
 
+@pytest.mark.slow
 def test_blocks_and_threads_change_no_bit():
     """More cases than a block holds, on one thread and on three, refused cases among them."""
     v = np.linspace(5.0, 60.0, 3 * BLOCK + 17)
@@ -647,6 +648,7 @@ def test_a_case_out_of_range_is_refused_in_a_batch_of_solve():
     ).all()
 
 
+@pytest.mark.slow
 def test_the_normals_of_a_batch_are_those_of_their_angles():
     """To 2 eps against 400 digits: at and beside quarter turns, far beyond a turn, and tiny; the
     promise has room for 4.
@@ -667,6 +669,7 @@ def test_the_normals_of_a_batch_are_those_of_their_angles():
             assert mpmath.hypot(mpmath.cos(angle) - x, mpmath.sin(angle) - y) <= 2.0 * 2.0**-52
 
 
+@pytest.mark.slow
 def test_a_batch_may_be_solved_within_a_batch():
     """A report of progress that solves another one takes no scratch from the first."""
     v = np.linspace(5.0, 60.0, 3 * BLOCK + 17)

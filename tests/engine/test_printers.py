@@ -69,6 +69,7 @@ def wrong(x):
     return {"y": np.tan(x)}
 
 
+@pytest.mark.slow
 def test_functions_and_constants():
     """The few functions that kernels do not use and pages do; constants of every kind; NaN is
     passed over by the larger.

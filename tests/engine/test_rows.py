@@ -52,6 +52,7 @@ def test_conditions_are_numbers():
     assert set(found[-2:].ravel()) <= {0.0, 1.0}
 
 
+@pytest.mark.slow
 def test_it_is_used_by_several_threads_at_once():
     program = RowProgram(step, INPUTS, Settings(False, False, False))
     parts = [rows(400, seed) for seed in range(16)]

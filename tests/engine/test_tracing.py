@@ -309,6 +309,7 @@ def test_refused_cases_touch_no_neighbour():
             assert np.isnan(mine[places]).all()
 
 
+@pytest.mark.slow
 def test_programs_are_shared_and_buffers_are_not():
     """The same program at once in several threads that the caller made."""
     a, b, e, normal = scene(3 * BLOCK)

@@ -55,6 +55,7 @@ def test_the_answer_is_that_of_the_level_that_required_takes(tolerance: Any, ask
     assert (asked == "5e-7 m/s") == (required.level is required.finest)
 
 
+@pytest.mark.slow
 def test_a_straight_skid_needs_no_wheels() -> None:
     """Locked wheels slow it by mu g, so that v^2 = 2 mu g d."""
     seen = {"A.rest.x": ("16 m", "0.2 m")}
@@ -106,6 +107,7 @@ def test_a_tolerance_that_cannot_be_is_refused(change: dict[str, Any], says: str
     assert str(caught.value.argument).startswith("tolerance")
 
 
+@pytest.mark.slow
 def test_a_share_of_bounds_is_that_of_their_width() -> None:
     seen = {"A.rest.x": Interval("14 m", "18 m")}
     found = posterior(skid(), SPEED, seen, tolerance=0.25, samples=512, seed=1)

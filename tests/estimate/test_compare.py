@@ -77,6 +77,7 @@ def test_errors_of_probabilities_are_those_of_repeated_runs():
     assert 0.65 < spread / stated < 1.5
 
 
+@pytest.mark.slow
 def test_a_wider_prior_loses(accounts):
     """Of a uniform prior of width w around the reading the evidence is 1/w: so is its factor, and
     the priors are printed.
@@ -96,6 +97,7 @@ def test_a_wider_prior_loses(accounts):
         assert "times" in text
 
 
+@pytest.mark.slow
 def test_the_sentence(accounts):
     found = compare(accounts)
     assert found.sentence.startswith("The evidence is ")
@@ -117,6 +119,7 @@ def test_the_sentence(accounts):
     assert isinstance(found, reconstruct.Comparison)
 
 
+@pytest.mark.slow
 def test_evidence_against_every_account_is_warned_of():
     with pytest.warns(col.CollisionsWarning, match="contradicts itself"):
         far, farther = account(Normal(26, 1)), account(Normal(27, 1))

@@ -76,6 +76,7 @@ def check_by_grid(found, exact):
 # --- closed forms and quadrature
 
 
+@pytest.mark.slow
 def test_one_reading_through_two_lines():
     """Prior N(20, 2); the finer model reads 1.1 v: mean, deviation and evidence in closed form."""
     found, codes = sampled(
@@ -199,6 +200,7 @@ def test_a_posterior_far_from_the_first_one():
     assert "islands_disagree" in codes or abs(found.log_evidence - log_evidence) < 0.5
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("error", [0.2, 0.05, 0.02, 0.01, 0.002])
 def test_a_reading_finer_than_the_difference_of_the_models(error):
     """They are up to 450 errors of the reading apart, and less where x is small, to where all
@@ -230,6 +232,7 @@ def test_a_reading_finer_than_the_difference_of_the_models(error):
     assert "contradictory" not in codes
 
 
+@pytest.mark.slow
 def test_numbers_at_the_edge_of_the_floats_have_an_answer():
     """Their spread overflows, and nothing can be learnt from it."""
     priors = {"x": Uniform(2.6, 8.7), "y": Normal(1.7e308, 1e307, truncate=(-6e306, None))}
@@ -588,6 +591,7 @@ def test_a_fit_by_a_line_has_a_closed_form():
     assert found["x"].standard_error == pytest.approx(0.25, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_ranges_of_a_finer_model_that_bends_cost_few_calls_of_it():
     """Ends at which chi-squared, with the other unknowns fitted again, rises by 3.84: as of the
     finer model alone, with a call of it where that takes one more for each unknown.
@@ -621,6 +625,7 @@ def test_ranges_of_a_finer_model_that_bends_cost_few_calls_of_it():
     assert found.calls["finer"] < 0.2 * alone.calls["model"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("known", [(0.5, 0.15), (0.55, 0.15), (0.45, 0.1), (0.6, 0.2)])
 def test_a_contact_that_only_the_finer_model_lets_slide_is_found(known):
     """Of the cheap model it stuck, at one speed of B; where it slid, the friction has its say, and
@@ -661,6 +666,7 @@ def test_a_contact_that_only_the_finer_model_lets_slide_is_found(known):
     assert len(found.others) == 1
 
 
+@pytest.mark.slow
 def test_ranges_that_a_reading_excludes_to_the_last_digit_end_in_an_answer_or_a_refusal():
     """A delta-V of nearly nothing, the wrong way, with an error of as little."""
 
@@ -683,6 +689,7 @@ def test_ranges_that_a_reading_excludes_to_the_last_digit_end_in_an_answer_or_a_
     assert any("contradicts itself" in str(one.message) for one in given)
 
 
+@pytest.mark.slow
 def test_two_answers_of_the_finer_model_are_refused_with_the_call_to_write():
     """Of (x - 1)^2 = 4: both are found from both answers of x^2 = 4."""
     with pytest.raises(col.AmbiguousSolutionError) as refused:
@@ -697,6 +704,7 @@ def test_two_answers_of_the_finer_model_are_refused_with_the_call_to_write():
     assert "write posterior(model, unknowns, observed, seed=1)" in str(refused.value)
 
 
+@pytest.mark.slow
 def test_rival_answers_say_on_what_they_agree():
     """|x| = 2 has two answers, of the same y."""
     with pytest.raises(
@@ -783,6 +791,7 @@ def test_calls_are_all_cases_that_either_model_was_asked():
     assert alone.calls["model"] <= asked["model"] <= alone.calls["model"] + 40
 
 
+@pytest.mark.slow
 def test_progress_rises_to_the_end():
     seen = []
     sampled(
@@ -797,6 +806,7 @@ def test_progress_rises_to_the_end():
     assert seen[-1] == 1024
 
 
+@pytest.mark.slow
 def test_both_models_warn_and_only_the_finer_one_of_the_answer():
     def warning(model, slowest):
         def found(speed, offset):
@@ -857,6 +867,7 @@ def test_finer_models_that_are_none(finer, kind, code, text):
     assert refused.value.fields.get("argument") in ("finer", "unknowns", None)
 
 
+@pytest.mark.slow
 def test_sharp_bounds_that_only_the_first_model_meets_are_refused():
     with pytest.raises(col.NoSolutionError, match="run the finer model alone") as refused:
         posterior(

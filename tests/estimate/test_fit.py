@@ -233,6 +233,7 @@ def test_a_chance_of_the_misfit_has_one_word_on_each_side_of_its_limits(chance, 
     )
 
 
+@pytest.mark.slow
 def test_a_bound_that_holds():
     """Of x + y and x - y/2 with x held at 1, what is left is one unknown whose answer is a weighted
     mean.
@@ -539,6 +540,7 @@ def bent(v, spare=0.0):
     return {"y": travel.path(way, [0.0, 2.0, 3.5], friction=0.7, lock=v).q.speed + 0.0 * spare}
 
 
+@pytest.mark.slow
 def test_an_unknown_that_nothing_determines_does_not_silence_the_model():
     """The model gives the same warning whatever the spare unknown is."""
     with pytest.warns(col.OutOfRangeWarning):
@@ -569,6 +571,7 @@ def test_a_warning_of_some_values_that_nothing_determines_is_kept():
     assert "wide_segment" in [note.code for note in found.model_notes]
 
 
+@pytest.mark.slow
 def test_the_answers_of_an_ambiguous_fit_have_the_warnings_of_the_model():
     def model(v):
         bent(np.clip(np.abs(v), 0.1, 0.9))
@@ -635,6 +638,7 @@ def test_fewer_observations_than_unknowns():
 # --- more than one answer, and none
 
 
+@pytest.mark.slow
 def test_two_answers_are_both_given():
     """A square has two roots."""
     with pytest.raises(
@@ -648,6 +652,7 @@ def test_two_answers_are_both_given():
     assert one.values["x"] == pytest.approx(2.0, abs=1e-8)
 
 
+@pytest.mark.slow
 def test_two_answers_within_three_standard_errors_are_two_as_well():
     """The roots of a coarse square, 2 and -2 with errors of 1.5 each: neither is preferred, and the
     ridge between is no answer.
@@ -657,6 +662,7 @@ def test_two_answers_within_three_standard_errors_are_two_as_well():
     assert sorted(round(one.values["x"], 6) for one in refused.value.solutions) == [-2.0, 2.0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("high", [10.0, 12.0])
 def test_a_turning_point_that_fits_as_well_is_a_second_answer(high):
     """(x - 3)^2 (x - 9)/10 - 0.5 turns at x = 3, half a sigma below what was observed, and meets it
@@ -685,6 +691,7 @@ BROKEN = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("broken", BROKEN)
 @pytest.mark.parametrize("above", [0.001, 0.02, 0.08])
 @pytest.mark.parametrize("second", [False, True])
@@ -712,6 +719,7 @@ def test_an_answer_where_the_model_bends_jumps_or_refuses_is_a_second_one(broken
         assert high == pytest.approx(5.0 + slope * (rise - above), abs=2e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("broken", BROKEN)
 def test_a_break_that_the_evidence_rules_out_is_no_answer(broken):
     above = 0.15  # three errors
@@ -764,6 +772,7 @@ def test_sliding_or_sticking():
     assert low.values["friction"] == pytest.approx(0.4, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_sticking_leaves_friction_undetermined():
     """Evidence of a contact that stuck: friction is named, the rest answered."""
     true = {"speed_a": 15.0, "speed_b": 12.0, "restitution": 0.1}
@@ -841,6 +850,7 @@ def score(coverage):
     return NormalDist().inv_cdf(0.5 * (1.0 + coverage))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("coverage", [0.5, 0.8, 0.95, 0.99, 0.999])
 def test_a_kink_has_the_range_in_which_chi_squared_rises_by_less(coverage):
     """1 + |x| + 0.3 x is observed as 0: chi-squared is its square, and rises by z^2 where it is
@@ -933,6 +943,7 @@ def test_ranges_beyond_a_kink_end_where_chi_squared_rises_by_so_much(observed):
             assert rise(name, end - way) < score(0.95) ** 2 < rise(name, end + way)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("coverage", [0.8, 0.95, 0.99])
 def test_a_model_that_bends_has_the_range_in_which_chi_squared_rises_by_less(coverage):
     """The square of 0.5 known to 0.15: its root, up to z errors of the square off; the standard
@@ -950,6 +961,7 @@ def test_a_model_that_bends_has_the_range_in_which_chi_squared_rises_by_less(cov
     assert found["x"].interval(coverage) == pytest.approx(ends, abs=0.004)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("coverage", [0.5, 0.68, 0.8, 0.9, 0.95, 0.99])
 def test_every_probability_has_its_own_range_where_the_model_bends_hard(coverage):
     """exp(x) of 1 known to 0.6: its logarithm, z errors off, is -4.34 at 90 percent and beyond the
@@ -963,6 +975,7 @@ def test_every_probability_has_its_own_range_where_the_model_bends_hard(coverage
     assert found["x"].interval(coverage) == pytest.approx(exact, abs=near)
 
 
+@pytest.mark.slow
 def test_ranges_of_higher_probabilities_hold_those_of_lower_ones():
     """Also where several valleys make up a range."""
     unknowns = {"x": Interval(-3, 3), "y": Interval(-3, 5)}
@@ -976,6 +989,7 @@ def test_ranges_of_higher_probabilities_hold_those_of_lower_ones():
     assert np.all(np.diff(high) >= 0.0)
 
 
+@pytest.mark.slow
 def test_a_valley_that_bends_has_the_range_of_its_floor():
     """y meets x^2 and x is 1 with an error of 1: the range of y is the square of that of x."""
 
@@ -1008,6 +1022,7 @@ def square(a):
     return {"o": a**2}
 
 
+@pytest.mark.slow
 def test_a_bound_within_two_errors_is_looked_at_too():
     """The square of 0.1 known to 0.1: an error of 0.5, so 0.2 errors to 0 and 1.8 to 1.
 
@@ -1115,6 +1130,7 @@ def hollows(a):
     return {"o": np.sin(30.0 * a) + 0.5 * a, "q": a}
 
 
+@pytest.mark.slow
 def test_many_hollows_are_for_the_posterior():
     """One of 64 searches over 20 ends at the least of chi-squared that they find, 2.28; on a grid
     of 1e-6 it is 0.02, at 2.007.
@@ -1200,6 +1216,7 @@ def test_angles_go_round_the_circle():
     assert codes == []
 
 
+@pytest.mark.slow
 def test_answers_a_turn_apart_are_one():
     """A course between -360 and 360 degrees, seen by its cosine and sine."""
     model, observed = (
@@ -1265,6 +1282,7 @@ def test_a_fit_feeds_a_propagation():
         assert result[name].std == pytest.approx(deviation, rel=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("model", "unknown", "reading", "words"),
     [
@@ -1392,6 +1410,7 @@ def test_an_undetermined_fit_is_shown_and_strict_json():
     assert pickle.loads(pickle.dumps(found)).to_dict() == found.to_dict()
 
 
+@pytest.mark.slow
 def test_the_same_question_has_the_same_answer():
     """Bit for bit: nothing is drawn at random."""
     one, other = (simple()[0].to_dict() for _ in range(2))
@@ -1459,6 +1478,7 @@ GOOD = ({"x": 1.0}, {"x": (1.0, 0.1)})
 RANDOM = np.random.default_rng(1)
 
 
+@pytest.mark.slow
 def test_a_few_cases_are_called_again_alone(monkeypatch):
     """After the first large call, for the noise of the model near five starts, five and perhaps
     their neighbours; the fit is the same to the bit without them.
@@ -1490,6 +1510,7 @@ def scattered(value, scatter):
     return value + scatter * np.modf(1e9 * np.sin(1e7 * value))[0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scatter", [1e-7, 1e-5, 1e-3])
 def test_a_model_that_scatters_has_the_answer_of_one_that_does_not(scatter):
     """As one that integrates with steps of its own: slopes over a part of the errors, from which
@@ -1643,6 +1664,7 @@ def test_observations_whose_errors_leave_the_range_of_floats(value, error):
     assert math.isfinite(found["x"].value)
 
 
+@pytest.mark.slow
 def test_errors_of_very_different_size():
     """What one observation says 1e14 or 1e18 times more firmly than the other is found: x = y by
     it, y = 4 by the prior.
@@ -1661,6 +1683,7 @@ def test_errors_of_very_different_size():
         assert (found["x"].value, found["y"].value) == pytest.approx((4.0, 4.0), abs=1e-6)
 
 
+@pytest.mark.slow
 def test_a_bound_that_the_model_refuses_beside_an_answer():
     """At x = 0 there is y / 0; the second answer lies so near to that bound that it is
     tried there.
@@ -1756,6 +1779,7 @@ SIDE_IMPACTS = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("unknowns", "known", "observed"), SIDE_IMPACTS)
 def test_a_range_goes_on_where_the_contact_slides(unknowns, known, observed):
     """Where it stuck no friction fits better than the prior's mean; three of its errors below, the
@@ -1770,6 +1794,7 @@ def test_a_range_goes_on_where_the_contact_slides(unknowns, known, observed):
         assert risen == pytest.approx(3.84, abs=0.04)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("unknowns", "known", "observed"),
     [
@@ -1813,6 +1838,7 @@ def test_ranges_of_a_finer_model_are_those_of_its_own_valleys(unknowns, known, o
             assert risen == pytest.approx(3.84, abs=0.15) or (end in bounds and risen < 3.84)
 
 
+@pytest.mark.slow
 def test_another_valley_is_looked_for_where_slopes_are_steep():
     """The end of the range of y lies beyond a turn of the sine, which no short step leads to."""
 

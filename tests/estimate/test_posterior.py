@@ -202,6 +202,7 @@ def test_censored_readings_of_a_normal_prior(case):
         assert (furthest in next(notes_of(found)).rest) is (chance < 0.01)
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
 def test_sharp_bounds_that_add_nothing_do_not_hide_a_contradiction():
     """The chance is that of one unknown so far off its prior, however many bounds say so."""
@@ -351,6 +352,7 @@ def test_two_separate_modes_keep_their_weights(unknowns):
     close(*found.probability(lambda at: at[names[1]] > 0.0), 0.5)
 
 
+@pytest.mark.slow
 def test_a_bent_reading_has_its_own_shape():
     """The square of a uniform unknown, read as 0: the density exp(-x^4/2 s^2), whose moments are
     gamma functions.
@@ -368,6 +370,7 @@ def test_a_bent_reading_has_its_own_shape():
     assert not codes
 
 
+@pytest.mark.slow
 def test_angles_go_round():
     """A course of 179 degrees read as -179: 2 degrees apart, and its figures lie about
     180 degrees.
@@ -397,6 +400,7 @@ def test_angles_go_round():
         assert shown.observed == pytest.approx(math.pi, abs=math.radians(0.2))
 
 
+@pytest.mark.slow
 def test_joint_samples_as_priors_go_on():
     """The posterior of one reading as the prior of the next is that of both, and what propagates
     from it too.
@@ -427,6 +431,7 @@ def test_joint_samples_as_priors_go_on():
     assert result.statements == ()
 
 
+@pytest.mark.slow
 def test_what_a_posterior_states_goes_with_its_samples():
     """Two readings of one speed that are 14 of their errors apart, of an impact as an instant."""
 
@@ -501,6 +506,7 @@ def test_contradictory_evidence_says_so():
     assert caught.value.code == "contradictory"
 
 
+@pytest.mark.slow
 def test_what_the_evidence_does_not_tell_is_said():
     """A restitution that changes nothing observed: a uniform one warns, a normal one is named."""
 
@@ -523,6 +529,7 @@ def test_what_the_evidence_does_not_tell_is_said():
     )
 
 
+@pytest.mark.slow
 def test_a_model_that_refuses_everywhere_says_so():
     def model(speed_a):
         return {
@@ -542,6 +549,7 @@ def test_a_model_that_refuses_everywhere_says_so():
         posterior(lambda x: {"x": x}, {"x": Normal(24.6, 1.0)}, {"x": (0.0, 1e-200)}, seed=1)
 
 
+@pytest.mark.slow
 def test_a_rare_answer_is_found():
     """The model answers for 1 percent of the prior: the evidence counts that."""
     found, _ = sampled(
@@ -558,6 +566,7 @@ def test_a_rare_answer_is_found():
     assert any("no answer for 99% of the prior" in one for one in found.statements)
 
 
+@pytest.mark.slow
 def test_answers_too_rare_to_be_found_say_so():
     """The first island draws 4,096 points and finds 1 or 2 of the share 1/4096 that has an answer;
     the next by chance none.
@@ -581,6 +590,7 @@ def test_answers_too_rare_to_be_found_say_so():
     assert outcomes == {True}
 
 
+@pytest.mark.slow
 def test_a_sample_that_cannot_be_moved_says_so():
     """Three values as a prior, and a reading that leaves one: every sample is the same."""
     found, codes = sampled(lambda x: {"x": x}, {"x": Samples([1.0, 2.0, 3.0])}, {"x": (2.0, 1e-3)})
@@ -617,6 +627,7 @@ def test_a_seed_makes_it_reproducible_for_any_number_of_threads():
     assert posterior(side, *SIDE, samples=1001, seed=1).samples == 1001
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("threads", [1, 3])
 def test_progress_rises_to_the_end(threads):
     seen = []
@@ -633,6 +644,7 @@ def test_progress_rises_to_the_end(threads):
     assert all(total == 1024 for _, total in seen)
 
 
+@pytest.mark.slow
 def test_an_interrupt_returns_the_finished_islands():
     def stop(done, total):
         if done >= 0.6 * total:
@@ -652,6 +664,7 @@ def test_an_interrupt_returns_the_finished_islands():
         posterior(side, *SIDE, samples=1024, seed=1, progress=at_once)
 
 
+@pytest.mark.slow
 def test_the_model_may_run_in_several_threads():
     seen = set()
 
@@ -663,6 +676,7 @@ def test_the_model_may_run_in_several_threads():
     assert len(seen - {threading.get_ident()}) > 1
 
 
+@pytest.mark.slow
 def test_shown_and_read_again():
     found = posterior(side, *SIDE, samples=1024, seed=1)
     assert (
@@ -753,6 +767,7 @@ def test_evidence_that_would_take_thousands_of_stages_is_refused_soon():
     assert len(calls) < 500 * 80  # sweeps of a stage at most, for the first islands
 
 
+@pytest.mark.slow
 def test_what_the_model_warns_of_is_said_once_with_the_samples_it_is_of():
     """Of the final samples, not of all the points on the way to them."""
 
@@ -825,6 +840,7 @@ def test_a_plain_output_has_the_unit_that_it_was_observed_in():
     assert "Without a unit, as the model returned plain numbers: twice." in text
 
 
+@pytest.mark.slow
 def test_what_no_sample_shows_has_an_error_of_one_sample():
     found = posterior(side, *SIDE, samples=512, seed=1)
     assert found.probability(lambda at: at["speed"] > 29.9) == (0.0, 1 / 512)
@@ -957,6 +973,7 @@ class StudentReading(readings.Reading):
         return (self.value.dof + 1.0) * np.log1p(z * z / self.value.dof)
 
 
+@pytest.mark.slow
 def test_a_kind_of_evidence_is_one_class(monkeypatch):
     """A speed known before and one reading with heavy tails: against quadrature; and evidence that
     such tails allow for is not called contradictory.
@@ -1006,6 +1023,7 @@ def test_evidence_contradicts_itself_from_a_chance_of_one_in_a_hundred_on(apart,
     assert codes == ([] if agrees else ["contradictory"])
 
 
+@pytest.mark.slow
 def test_an_unknown_that_the_evidence_moved_or_narrowed_does_not_rest_on_its_prior():
     """A speed of 0 +/- 1 that is the root of an energy is a likelihood of exp(-energy/2): it moves
     a normal prior by half its variance and leaves the spread as it was.
@@ -1061,6 +1079,7 @@ def test_a_bare_angle_that_no_square_holds_is_answered():
     assert abs(found["x"].mean) < 0.5 * math.pi
 
 
+@pytest.mark.slow
 def test_a_bare_observation_is_written_in_the_unit_of_what_the_model_predicts():
     """93112 J beside a prediction in ft·lbf would be read as the larger of the two."""
 
@@ -1099,6 +1118,7 @@ def braking(**more):
     return found, found.with_result("before", col.travel.speed, "m/s", **given)
 
 
+@pytest.mark.slow
 def test_what_follows_has_the_range_of_all_that_it_follows_from():
     """v0^2 = v1^2 + 2 g drag d: with small errors its deviation is that of the slopes."""
     found, more = braking()
@@ -1118,6 +1138,7 @@ def test_what_follows_has_the_range_of_all_that_it_follows_from():
     assert over == pytest.approx(0.5, abs=0.03)
 
 
+@pytest.mark.slow
 def test_what_follows_is_said_and_recorded():
     _, more = braking()
     record = json.loads(json.dumps(more.to_dict(), allow_nan=False))
@@ -1135,6 +1156,7 @@ def test_what_follows_is_said_and_recorded():
     assert np.array_equal(braking()[1].draws["before"], more.draws["before"])
 
 
+@pytest.mark.slow
 def test_what_a_reading_was_worked_out_from_is_said_and_recorded():
     one = reconstruct.crush_energy("1.5 m", ["20 cm", "30 cm"], "40 kN/m", "600 kN/m**2")
     other = reconstruct.crush_energy(
@@ -1185,6 +1207,7 @@ def test_a_result_that_no_sample_has_is_refused_with_what_to_write():
     assert turned["before"].mean == pytest.approx(-found["Corolla.vx"].mean, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_the_unit_of_a_result_is_that_of_what_the_function_returns():
     found, _ = braking()
     given = {"distance": "12 m", "drag": 0.7, "end_speed": found["speed"]}
@@ -1251,6 +1274,7 @@ def test_results_that_do_not_follow(change, kind, code):
     assert code is None or caught.value.code == code
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("estimate", [posterior, reconstruct.fit])
 def test_a_reading_with_the_sign_of_another_convention_is_named(estimate):
     """Recorders count a lateral delta-V positive to the right."""
@@ -1279,6 +1303,7 @@ def test_a_reading_with_the_sign_of_another_convention_is_named(estimate):
     assert "opposite sign" not in said("-25 m/s")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("returned", ["to a full turn", "to half a turn"])
 def test_a_predicted_direction_that_jumps_is_told(returned):
     """A heading about 0 that is returned in 0 to 360 degrees has a mean between both ends, and is
@@ -1312,6 +1337,7 @@ def _halved(v):
     return {"dv": pint.application_registry.Quantity(0.5 * v, "m/s")}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("study", [posterior, fit])
 def test_a_reading_as_a_text_needs_the_unit_that_the_model_returns(study):
     """A text needs its unit, a bare number is in SI; of a model of bare floats it is not known."""
@@ -1330,6 +1356,7 @@ def test_a_reading_as_a_text_needs_the_unit_that_the_model_returns(study):
     assert study(model, prior, {"dv": ("5", "1")}, **options).residuals["dv"].observed == 5.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("study", [posterior, fit])
 def test_units_that_are_required_are_required_of_readings(study):
     """Where the model returns a unit; a model of bare floats has none."""
@@ -1361,6 +1388,7 @@ def test_what_no_prior_reaches_is_refused_soon(at, error):
     assert calls < 200
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:the evidence contradicts itself")
 def test_what_lies_ninety_deviations_off_is_reached():
     """In closed form; the way there takes hundreds of stages."""

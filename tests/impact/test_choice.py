@@ -491,6 +491,7 @@ def batch(size=500):
     return scenes, a, b, {"restitution": 0.2, "normal": 0.3, "point": (0.0, 0.0), "friction": 0.4}
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::collisions.EnergyGainWarning")
 def test_a_batch_chooses_for_every_case_by_itself():
     """Model and numbers of each case are those it has alone; refused cases are NaN and counted."""
@@ -515,6 +516,7 @@ def test_a_batch_chooses_for_every_case_by_itself():
     assert impact.choice.errors["linear_central"].shape == impact.status.shape
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
 def test_records_columns_and_pickles_keep_the_choice():
     """A chosen impact is solved again from its record with the same tolerance, single and in a
@@ -631,6 +633,7 @@ def test_an_answer_without_a_point_is_asked_again_from_its_record():
     assert col.Impact.from_dict(json.loads(json.dumps(impact.to_dict(), allow_nan=False))) == impact
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("dtype", [np.float64, np.float32])
 def test_a_large_batch_is_predicted_and_solved_as_small_ones_are(dtype):
     """More cases than a block holds, worked out in blocks by model: the same bits, also of what is
@@ -706,6 +709,7 @@ def large(size):
     return a, b, {**contact, "friction": rng.choice([0.0, 0.3], size), "tolerance": 0.5}
 
 
+@pytest.mark.slow
 def test_threads_change_nothing():
     """To the bit, and the choice is the same."""
     a, b, contact = large(7 * BLOCK + 11)

@@ -141,6 +141,7 @@ def test_tyres_that_one_vehicle_lacks_are_left_out():
     assert "| A | change of delta-V by the tyres of B | 0.34 m/s (18 percent) |" in page
 
 
+@pytest.mark.slow
 def test_a_contact_in_time_without_the_tyres_of_one_vehicle():
     a, b = (
         col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=x, y=0.0, heading=0.0, vx=vx)
@@ -376,6 +377,7 @@ def turned_in_time(*asked):
     ]
 
 
+@pytest.mark.slow
 @TOUCHES
 @pytest.mark.parametrize("normal", [0.0, 0.3])
 def test_geometry_of_a_short_plastic_contact_is_that_in_time(geometry, normal):

@@ -247,6 +247,7 @@ def test_a_pivot_takes_the_moment_about_it(law):
     assert pushed.b.after.vx == pytest.approx(-2.0 * pushed.b.after.yaw_rate, rel=1e-14)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", LAWS)
 def test_a_batch_is_its_cases(law):
     scenes = [scene for scene, _ in cases("traffic", law, PUSHED, 100)]
@@ -476,6 +477,7 @@ def test_central_goes_back_from_any_three(e):
     assert refused.value.code == "not_separating"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", ["brach", "kudlich-slibar"])
 @pytest.mark.filterwarnings("ignore:the speed of . came out:collisions.OutOfRangeWarning")
 def test_planar_and_speeds_go_back(law):
@@ -528,6 +530,7 @@ def test_planar_and_speeds_go_back(law):
         )
 
 
+@pytest.mark.slow
 def test_speeds_take_a_function_that_goes_below_0():
     """A restitution that falls through 0 with the closing speed: found by the search on its grid
     from -1.

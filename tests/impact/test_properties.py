@@ -195,6 +195,7 @@ def assert_same(
         ), side
 
 
+@pytest.mark.slow
 def test_an_infinite_promise_is_no_promise() -> None:
     """Where hardly anything closes, a share of the critical ratio (here 1e322) has no accuracy: no
     property is asked of such a case.
@@ -458,6 +459,7 @@ def test_a_common_velocity_changes_nothing(
     assert_same(solved(model, scene), solved(model, replace(scene, a=a, b=b)), scene, answer)
 
 
+@pytest.mark.slow
 @every_law
 @every_constraint
 @crossed

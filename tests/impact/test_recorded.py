@@ -169,6 +169,7 @@ def test_few_steps_of_a_contact_that_turns_are_read_alike_together_and_alone():
         np.testing.assert_allclose(found[:, at], alone, rtol=1e-10)
 
 
+@pytest.mark.slow
 def test_of_two_axes_and_float32():
     speeds = np.linspace(8.0, 20.0, 30, dtype=np.float32).reshape(5, 6)
     many = col.time_resolved(A.replace(vx=speeds), B, 0.2, **MET)

@@ -982,6 +982,7 @@ def test_every_output_of_a_refused_case(name: str) -> None:
     assert refused
 
 
+@pytest.mark.slow
 def test_a_start_that_is_hard_to_find_is_found_beside_others() -> None:
     """Each case of a batch is corrected by what it did itself, however many others are left."""
     columns = columns_of("time_resolved")

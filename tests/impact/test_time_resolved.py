@@ -455,6 +455,7 @@ def by_events(a, b, e, normal, point, friction):
     return np.array(found), velocity
 
 
+@pytest.mark.slow
 def test_from_event_to_event_is_the_law():
     """law="stronge" to the rounding of the other way, which looks for its end by a square root:
     1e-12, half of them to 1e-14.
@@ -1157,6 +1158,7 @@ def test_the_pulse():
     assert pulse.q.duration.m_as("ms") == pytest.approx(1e3 * pulse.duration)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("geometry", ["fixed", "maximum_engagement"])
 @pytest.mark.parametrize("friction", [0.5, math.inf])
 def test_the_largest_acceleration_does_not_depend_on_the_step(friction, geometry):
@@ -1356,6 +1358,7 @@ def test_a_body_on_a_pivot_is_an_infinite_mass_there():
     assert found.b.delta_yaw_rate == pytest.approx(wanted.b.delta_yaw_rate, rel=5e-5)
 
 
+@pytest.mark.slow
 def test_steps_within_which_a_body_turns_too_far_are_refused():
     """Below, the answer is within some percent of that of ten times the steps. Where nothing moves
     the turn does not matter, nor does the yaw rate after.
@@ -1386,6 +1389,7 @@ def test_steps_within_which_a_body_turns_too_far_are_refused():
     assert found.a.delta_v == pytest.approx(finer.a.delta_v, rel=2e-3)
 
 
+@pytest.mark.slow
 def test_refused_contacts():
     """One that tyres hold does not end; one whose start cannot be found, or that lies apart there;
     too large for floats.
@@ -1463,6 +1467,7 @@ def test_a_contact_that_friction_without_bound_parts_at_once_is_refused(geometry
     assert col.time_resolved(a, slower, 0.1, friction=math.inf, **in_time).normal_impulse > 100.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("geometry", ["fixed", "first_contact"])
 def test_which_contacts_friction_parts_at_once(geometry):
     """The same of random pairs as under "stronge", each once."""
@@ -1626,6 +1631,7 @@ def test_where_time_is_no_candidate():
         col.solve(a, b, 0.1, **where, friction=0.5, duration=0)
 
 
+@pytest.mark.slow
 def test_a_batch_of_solve_with_a_duration():
     """Each case by its own model, as by itself; a record is solved again."""
     speeds, tolerances = np.array([20.0, 3.0, -4.0, 8.0]), np.array([5.0, 0.1, 1.0, 1.0])
@@ -1721,6 +1727,7 @@ def test_a_wall_at_rest_gains_nothing():
 # The ends of what it answers
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("friction", [0.0, 0.5])
 def test_energy_that_only_the_steps_gain_is_said(friction):
     """At a restitution of 1 a contact loses nothing along the normal; what the steps miss may be

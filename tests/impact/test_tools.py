@@ -259,6 +259,7 @@ def test_errors_keep_their_fields(process, kind):
         assert len(pickle.loads(pickle.dumps(error)).solutions) == 2
 
 
+@pytest.mark.slow
 def test_a_worker_raises_what_a_caller_would_see(process):
     """The solver itself as the task; its refusal arrives whole."""
     with pytest.raises(col.NoImpactError) as caught:
@@ -279,6 +280,7 @@ def test_warnings_keep_their_fields():
     )
 
 
+@pytest.mark.slow
 def test_the_typed_caller_uses_every_public_function():
     """As the page says of ``tests/typing/caller.py``, which type checkers read: by its module, or
     by its name as a method.
@@ -584,6 +586,7 @@ def strict(impact):
     return json.loads(json.dumps(impact.to_dict(), allow_nan=False))
 
 
+@pytest.mark.slow
 def test_the_schema_is_one():
     """Of draft 2020-12, plain data, and each time a new dict."""
     jsonschema.Draft202012Validator.check_schema(SCHEMA)
@@ -616,6 +619,7 @@ def test_a_batch_with_a_normal_that_is_no_angle_has_a_record():
         assert col.Impact.from_dict(strict(impact)) == impact
 
 
+@pytest.mark.slow
 def test_records_together_reach_every_part_of_the_schema():
     """Each result is somewhere a number, somewhere a batch, and each that may be missing is
     somewhere missing.
@@ -699,6 +703,7 @@ def test_a_law_and_a_point_belong_to_the_models_that_know_them():
     assert not VALIDATOR.is_valid(record)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("part", "value"), [("shape", [2]), ("values", [14.0, 12.0]), ("shape", [1, 1, 4])]
 )
@@ -804,6 +809,7 @@ def test_each_input_stands_in_a_record_once_as_it_was_given():
     assert (before["mass"], before["vx"], before["y"]) == (1100.0, impact.a.before.vx, 0.0)
 
 
+@pytest.mark.slow
 def test_a_unit_that_only_its_own_registry_knows_stands_as_a_number():
     """Its text could not be read again."""
     own = pint.UnitRegistry()

@@ -142,6 +142,7 @@ def test_slip_that_turns_around():
     assert "the numbers cancel" not in explain(back)
 
 
+@pytest.mark.slow
 def test_the_end_of_compression_is_that_of_the_plastic_impact():
     for law_scene, _ in cases("traffic", "stronge", "friction", 60):
         impact = solved("eccentric", law_scene)
@@ -339,6 +340,7 @@ def test_at_rest_along_the_tangent_it_slides_as_under_brach():
         assert ours.tangential_impulse == pytest.approx(brach.tangential_impulse, rel=1e-13)
 
 
+@pytest.mark.slow
 def test_explained_where_the_slip_goes_on_stops_and_turns():
     rng = random.Random(4)
     seen = set()

@@ -526,6 +526,7 @@ def test_what_overflows_is_refused(rule: str) -> None:
     assert answered > 100
 
 
+@pytest.mark.slow
 def test_closing_is_decided_by_the_sign_that_is_computed() -> None:
     """Where the exact closing speed is beyond 4 eps S_U the decision is right; nearer than that it
     is sometimes the other one.

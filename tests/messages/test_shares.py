@@ -55,6 +55,7 @@ def test_evidence_that_agrees_to_the_last_digit_has_no_chance_of_1():
     assert "has a chance of more than 0.99" in found.statements[0]
 
 
+@pytest.mark.slow
 def test_accounts_compared_are_never_certain():
     """Evidence of 8.6 sigma for one of two: the other keeps exp(-8.6^2/4) of it, about 1e-8."""
 

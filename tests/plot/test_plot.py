@@ -608,6 +608,7 @@ def test_numbers_beside_the_axes_are_told_apart_at_any_size(picture, mass):
         ), labels
 
 
+@pytest.mark.slow
 def test_coordinates_of_a_national_grid_are_in_full():
     """Seven digits before the point."""
     a, b = (
@@ -737,6 +738,7 @@ def test_a_moment_that_is_not_known_is_refused():
     assert caught.value.code == "bad_option"
 
 
+@pytest.mark.slow
 def test_places_that_were_not_given_are_a_sketch_and_said_to_be():
     """No numbers or units on the axes, which would be made up, nor arrows measured in lengths."""
     for case in ("example 2", "wall in line"):
@@ -840,6 +842,7 @@ def in_points(axes, place):
     return axes.transData.transform(place) * 72.0 / axes.figure.dpi
 
 
+@pytest.mark.slow
 def test_a_slow_rebound_is_not_under_the_arrow_that_arrives():
     """Its ends are further from the line of that arrow than half a head is wide, 3 points, and from
     the mark of the centre, 5.
@@ -1168,6 +1171,7 @@ def test_the_solution_of_planar_momentum_has_its_diagram():
     assert found["before.b"] == pytest.approx((0.0, total[1]), rel=1e-9, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_an_impulse_that_was_stated_is_an_arrow_of_its_own():
     """Of planar momentum and of an impact; then there is no common total."""
     axes = plot.momentum(crossing(outside_impulse=(-400.0, 100.0)), units="si")
@@ -1702,6 +1706,7 @@ def test_a_duration_that_cannot_be_is_refused(given, code):
     assert not plt.get_fignums()
 
 
+@pytest.mark.slow
 def test_a_duration_in_milliseconds_is_suspected():
     with pytest.warns(col.SuspectUnitsWarning, match="'100 ms'"):
         plot.force_time(IMPACTS["example 2"], 100.0)
@@ -1828,6 +1833,7 @@ def test_pictures_of_an_output_have_its_unit(system, unit):
     assert plot.distribution(RESULT["energy"], units=system).get_xlabel() == f"energy [{unit}]"
 
 
+@pytest.mark.slow
 def test_each_share_has_its_figure_beside_its_own_mark():
     """Inputs that act together: bar and diamond are far apart, and each figure is nearer to its
     own; none is minus nothing.
@@ -1938,6 +1944,7 @@ def test_what_is_no_result_of_a_propagation_is_refused(given):
         plot.contributions(RESULT, 3)
 
 
+@pytest.mark.slow
 def test_an_interval_has_neither_shares_nor_one_distribution():
     mixed = uncertainty.propagate(
         squared,
@@ -2032,6 +2039,7 @@ def two_speeds():
     )
 
 
+@pytest.mark.slow
 def test_a_corner_has_each_unknown_and_each_pair(two_speeds):
     """In the units asked for; the lines hold their share of the samples."""
     figure = plot.corner(two_speeds, units="metric")
@@ -2053,6 +2061,7 @@ def test_a_corner_has_each_unknown_and_each_pair(two_speeds):
     plt.close("all")
 
 
+@pytest.mark.slow
 def test_no_residual_and_no_range_is_cut_off():
     # The reading is ten of its errors from the prior, of the same error: half way, five of them
     # with 1.4 to either side.
@@ -2069,6 +2078,7 @@ def test_no_residual_and_no_range_is_cut_off():
     assert low < min(drawn) <= max(drawn) < high
 
 
+@pytest.mark.slow
 def test_residuals_stand_where_they_are(two_speeds):
     """Observed less computed over the error; a sharp bound has none. Of a fit the points alone."""
     axes = plot.residuals(two_speeds)
@@ -2106,6 +2116,7 @@ def test_axes_that_held_a_scene_take_another_picture(two_speeds):
     plt.close("all")
 
 
+@pytest.mark.slow
 def test_evidence_that_cannot_be_drawn(two_speeds):
     sharp = reconstruct.posterior(
         lambda x: {"x": x, "one": 1.0 + 0.0 * x, "rounded": 7.64092 + 1e-15 * x},

@@ -92,6 +92,7 @@ def test_any_other_outline_stays_plain(outline):
     assert drawn(outline).keys() == {"outline", "front"}
 
 
+@pytest.mark.slow
 def test_wheels_of_a_run_stand_where_its_tyres_are():
     """So that the marks begin under them."""
     car = {"mass": 1500, "yaw_inertia": 2500}

@@ -89,6 +89,7 @@ def test_the_title_of_a_pulse_has_its_duration_its_peak_and_its_crush(followed):
     assert written == pytest.approx(exact, rel=5e-3)
 
 
+@pytest.mark.slow
 def test_maximum_engagement_is_where_the_crush_is_greatest(followed):
     """In every panel, also where the force has been at its greatest for a while."""
     axes = plot.pulse(followed, units="si")

@@ -28,6 +28,7 @@ def read_once():
     )
 
 
+@pytest.mark.slow
 def test_the_dark_band_is_one_stated_error_and_the_light_one_two(read_once):
     axes = plot.residuals(read_once)
     bands = sorted(

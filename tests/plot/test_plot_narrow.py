@@ -55,6 +55,7 @@ def test_no_label_stands_on_the_axis(picture, speed_b):
             assert not extent.x0 < edge < extent.x1, text.get_text()
 
 
+@pytest.mark.slow
 def test_a_short_arrow_has_a_shaft():
     axes = drawn(plot.scene, "-45 mph")
     short = 0

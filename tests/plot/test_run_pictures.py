@@ -50,6 +50,7 @@ def drawn(patch: Any, unit: float) -> set[tuple[float, float]]:
     return {(round(x * unit, 9) + 0.0, round(y * unit, 9) + 0.0) for x, y in patch.get_xy()}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("units", "unit"), [("us", FOOT), ("metric", 1.0)])
 def test_outlines_stand_where_the_vehicles_are(units: Any, unit: float) -> None:
     run = three_cars()
@@ -76,6 +77,7 @@ def test_outlines_stand_where_the_vehicles_are(units: Any, unit: float) -> None:
             )
 
 
+@pytest.mark.slow
 def test_tracks_marks_surfaces_and_contacts_are_those_of_the_run() -> None:
     run = three_cars()
     axes = plot.scene(run, units="us")
@@ -101,6 +103,7 @@ def test_tracks_marks_surfaces_and_contacts_are_those_of_the_run() -> None:
     assert "friction 0.3" in texts
 
 
+@pytest.mark.slow
 def test_a_mark_is_drawn_from_its_begin_to_its_end() -> None:
     """Also one that lies between two moments of the run's clock."""
     run = over_ice()
@@ -167,6 +170,7 @@ def test_names_of_contacts_stand_apart_in_the_timeline() -> None:
             assert box.x1 < figure.bbox.x1
 
 
+@pytest.mark.slow
 def test_vehicles_without_outline_that_nothing_slows_are_drawn_too() -> None:
     axes = plot.scene(coasting())
     assert len(by_gid(axes, "<A & co>.track")) == 1

@@ -116,6 +116,7 @@ def test_a_refusal_speaks_the_units_of_the_inputs(name):
     assert not SI.search(str(caught.value)), str(caught.value)
 
 
+@pytest.mark.slow
 def test_the_fields_stay_si():
     for name in ("separating", "eccentric", "solve", "in time"):
         with pytest.raises(col.NoImpactError) as caught:

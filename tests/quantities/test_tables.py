@@ -408,6 +408,7 @@ def test_a_printed_propagation_is_its_table():
     assert "22.0 ± 1.1 mph" in str(found)
 
 
+@pytest.mark.slow
 def test_results_keep_the_units_of_their_inputs():
     """Also where a result holds numbers alone: a vehicle after, a batch, what is left out, and all
     of them unpickled.
@@ -744,6 +745,7 @@ def test_what_is_said_beside_the_numbers_of_an_impact_found_backwards_stands_in_
     assert "Found as an instant: of delta-V that leaves out about" in text
 
 
+@pytest.mark.slow
 def test_the_help_of_summary_says_which_summaries_have_radians_in_si():
     """A course of a study, a posterior, a fit and an impact, in every system of units."""
 

@@ -212,6 +212,7 @@ def test_a_unit_of_another_registry_that_is_another_one_here_is_shown_in_si():
     assert col.Vehicle(mass="1 kg", vx=usual).given["vx"] == "36.0 kilometer / hour"
 
 
+@pytest.mark.slow
 def test_a_context_is_obeyed_and_forgotten():
     """A unit redefined inside a context counts only there."""
     ureg = pint.UnitRegistry()
@@ -387,6 +388,7 @@ def test_a_registry_that_passes_over_upper_and_lower_case(seed):
     assert pounds == plain.mass
 
 
+@pytest.mark.slow
 def test_a_quantity_whose_registry_took_its_unit_for_another():
     registry = pint.UnitRegistry(case_sensitive=False)
     quantity = registry.Quantity(1500, registry.parse_units("kilogauss"))

@@ -164,6 +164,7 @@ def test_a_restitution_below_0_is_not_taken_for_rounding(held, more):
     assert [one.restitution > 0.01 for one in found] == [True] * bounces
 
 
+@pytest.mark.slow
 def test_of_two_answers_with_tyres_neither_is_left_out():
     """Tyres of A slow the approach: a plastic impact and a bounce lose the same, whichever way the
     energy was rounded.
@@ -196,6 +197,7 @@ def test_every_way_of_finding_it_can_be_derived(crashes):
             assert "Closing speed of these" in col.explain(impact)
 
 
+@pytest.mark.slow
 def test_a_batch_answers_as_its_cases(crashes):
     mass, truth, held = (
         {name: np.array([one[at][name] for one in crashes]) for name in crashes[0][at]}

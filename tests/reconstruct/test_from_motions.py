@@ -448,6 +448,7 @@ def slid(model, rng, friction):
     return col.eccentric(a, b, 0.2, normal=0.1, point=(0.0, 0.0), friction=friction)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("model", ["oblique_central", "eccentric"])
 def test_the_friction_of_sliding_impacts(model):
     """The coefficient itself, whichever way it slid; if the contact came to stick, the ratio that
@@ -1033,6 +1034,7 @@ def test_crush_refusals(code, arguments, rest, said):
         assert f"- {name}" in str(every)
 
 
+@pytest.mark.slow
 def test_a_crush_energy_says_what_it_was_worked_out_from():
     given = ("5 ft", ["11 in", "13 in", "9 in"], "300 lbf/in", "60 lbf/in**2")
     as_given = (

@@ -137,6 +137,7 @@ def test_planar_in_parts_has_the_bits_of_the_whole(monkeypatch, law, rule, kind)
     assert np.count_nonzero(whole.ok) > 100
 
 
+@pytest.mark.slow
 def test_planar_refuses_the_first_case_wherever_it_is(monkeypatch):
     """``on_failure="raise"`` names the case of the batch, not of its part."""
     monkeypatch.setattr(PARTS, 64)
@@ -296,6 +297,7 @@ def test_speeds_take_the_memory_of_their_answers():
     assert most < 850
 
 
+@pytest.mark.slow
 def test_a_share_of_the_critical_ratio_leaves_its_neighbours_bits():
     """A case with the whole critical ratio has the same speeds, to the bit, among cases with a
     share of it and among its like.

@@ -165,6 +165,7 @@ def crossing(**changes):
 # Answers
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("family", FAMILIES)
 @pytest.mark.parametrize("pair", PAIRS, ids="+".join)
 def test_every_pair_of_unknowns(family, pair):
@@ -212,6 +213,7 @@ def test_round_trip(pair):
             )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pair", TOGETHER_PAIRS, ids="+".join)
 def test_together(pair):
     """Vehicles that leave as one: three speeds in the balance, one known."""
@@ -337,6 +339,7 @@ def test_negative_answers_are_returned():
     assert found.delta_v_a == pytest.approx(turned.delta_v_a, rel=16 * EPS)
 
 
+@pytest.mark.slow
 def test_rounding_of_zero_is_not_backwards():
     """A vehicle that stood comes out as a rounding of 0, of either sign, which no warning is made
     of.

@@ -98,6 +98,7 @@ def test_an_impact_of_known_courses_is_found_again(label):
     assert not set(stated) & set(alone.sensitivity[alone.unknowns[0]])
 
 
+@pytest.mark.slow
 def test_the_velocity_after_that_the_forward_solver_gives_is_found_again():
     """The forward solver takes the force from the motions of an impact without tyres, this one from
     those with them: what is left of their effect is a tenth of it.

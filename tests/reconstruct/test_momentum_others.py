@@ -143,6 +143,7 @@ def test_the_truth_is_among_those_that_are_said_to_fit():
     assert checked >= 15
 
 
+@pytest.mark.slow
 def test_of_three_that_fit_the_one_between_is_said_too():
     """Vehicles that leave together; each of the three goes forwards to the motion known."""
     known = {

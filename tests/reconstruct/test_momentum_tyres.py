@@ -207,6 +207,7 @@ def test_yaw_rates_turn_the_forces():
     assert "taken as 0" not in explain(turned, form="text")
 
 
+@pytest.mark.slow
 def test_a_batch_has_the_answers_of_its_cases():
     durations, frictions = np.array([0.06, 0.1, 0.14]), np.array([0.3, 0.6, 0.9])
     many = found(duration=durations, tyres_a=locked(frictions), tyres_b=ROLLING)

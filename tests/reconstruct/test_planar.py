@@ -370,6 +370,7 @@ def two_origins(count=80):
     return found
 
 
+@pytest.mark.slow
 def test_two_origins_and_what_decides():
     """All lead to the end; the regime, or the ratio of either, gives each alone."""
     found = two_origins()
@@ -416,6 +417,7 @@ def test_how_often_there_are_two():
     assert 0.02 * sliding < two_of_sliding < 0.6 * sliding, counts
 
 
+@pytest.mark.slow
 def test_a_share_of_the_critical_ratio_may_have_two_origins():
     """Every solution has the share of its own critical ratio, and its ratio gives it alone."""
     seen = 0
@@ -548,6 +550,7 @@ def test_a_refused_case_of_a_batch(status, changes):
     assert raised.value.code == col.Status[status].label
 
 
+@pytest.mark.slow
 def test_two_origins_in_a_batch():
     """Refused with its status; which case is named."""
     end, _ = two_origins()[0]
@@ -570,6 +573,7 @@ def test_two_origins_in_a_batch():
 # As arguments are read, and what comes back
 
 
+@pytest.mark.slow
 def test_units_single_precision_and_records():
     """Texts and Quantities are the same numbers; float32 stays float32; a record replays; names and
     headings are kept.

@@ -112,6 +112,7 @@ def test_a_closing_speed_of_rounding_is_said_to_be_that(solver):
         solver(a, b.replace(vx=61.0), *after, normal=0.0)
 
 
+@pytest.mark.slow
 def test_a_case_of_a_batch_is_refused_as_alone():
     """Text and solutions included."""
     end = col.eccentric(A, B, 0.1, **JAMMING)

@@ -161,6 +161,7 @@ def test_a_plastic_contact_is_found_with_a_restitution_of_0(kind):
     assert 0.0 <= found.restitution < 1e-9
 
 
+@pytest.mark.slow
 def test_a_barrier_and_a_pinned_body():
     wall = col.Vehicle.barrier()
     contact = {"normal": 0.2, "point": (0.0, 0.0), "friction": 0.2}
@@ -205,6 +206,7 @@ def test_a_batch_has_the_answers_of_its_cases():
         assert many.b.before.yaw_rate[i] == pytest.approx(one.b.before.yaw_rate, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_a_batch_refuses_what_cannot_be():
     end = known_ends()
     with pytest.warns(col.CollisionsWarning, match="1 not_positive, 1 bad_friction"):
@@ -361,6 +363,7 @@ def test_what_is_answered_while_tyres_act_is_what_was(known):
     assert "(medians)" in found.statements[1]
 
 
+@pytest.mark.slow
 def test_every_motion_that_ends_so_is_among_the_solutions():
     """A crash whose end four motions before lead to; each of them does, run forward."""
     a = col.Vehicle(mass=1300, yaw_inertia=3400, x=-2, y=0.4, vx=8.4, heading=0)
@@ -462,6 +465,7 @@ def test_motions_before_are_found_from_the_fold_of_the_instant(kind):
     assert min(abs(one.a.before.vx - BEYOND_A.vx) for one in solutions) < 1e-5
 
 
+@pytest.mark.slow
 def test_a_motion_before_that_was_not_found_is_not_said_to_be_none():
     """Tyres that hardly act do not bring the contact there."""
     impact = col.eccentric(BEYOND_A, BEYOND_B, 0.4836653, **BEYOND, **BEYOND_WHEELS)

@@ -116,6 +116,7 @@ def test_whether_it_ended(stop, ended):
     assert reading.error == pytest.approx(pulse.error_forward / math.sqrt(3), rel=1e-14)
 
 
+@pytest.mark.slow
 def test_a_cut_pulse_is_evidence_of_at_least_so_much():
     """In a posterior it only rules out less: with a flat prior what is left lies beyond the bound,
     to its error.

@@ -274,6 +274,7 @@ def test_an_incomplete_impact_is_engaged_the_most_at_its_end():
     assert mph(found) == pytest.approx([30.0, 25.0], abs=2e-4)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("friction", [0.3, 0.5])
 def test_of_a_contact_that_slid_one_speed_and_readings_give_the_other(friction):
     """The readings of B, and its speed, give that of A."""
@@ -285,6 +286,7 @@ def test_of_a_contact_that_slid_one_speed_and_readings_give_the_other(friction):
     assert mph(found) == pytest.approx([30.0, 25.0], abs=2e-4)
 
 
+@pytest.mark.slow
 def test_both_recorders_far_from_the_centre_seemed_to_contradict():
     """Of cars that turn fast their readings disagree if taken for the centres."""
     impact = crash()
@@ -298,6 +300,7 @@ def test_both_recorders_far_from_the_centre_seemed_to_contradict():
     assert mph(found) == pytest.approx([30.0, 25.0], abs=2e-4)
 
 
+@pytest.mark.slow
 def test_batches_are_their_cases():
     count = 7
     ahead, lasts = np.linspace(-1.0, 1.0, count), np.linspace(0.05, 0.15, count)
@@ -324,6 +327,7 @@ SEVERAL = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", SEVERAL)
 @pytest.mark.parametrize("forward_only", [False, True])
 @pytest.mark.filterwarnings("ignore:the speed of B came out as")

@@ -111,6 +111,7 @@ ANSWERS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ANSWERS)
 def test_every_reverse_answer_has_both_speeds_and_says_what_it_found(name):
     """The speeds of the impact solved forwards, from which each was told what it needs."""
@@ -132,6 +133,7 @@ def test_in_line_the_velocity_that_was_given_is_not_found():
     assert CRASH.found == ()
 
 
+@pytest.mark.slow
 def test_a_friction_that_the_components_show_is_found():
     """The contact of 0.05 slides, and the ratio of its components is that."""
     end = col.eccentric(A, B, 0.1, **{**PLACE, "friction": 0.05})
@@ -147,6 +149,7 @@ def test_a_friction_that_the_components_show_is_found():
     assert report(replay(page), **options(page)) == page
 
 
+@pytest.mark.slow
 def test_what_has_no_such_name_has_no_speed():
     by_name = reconstruct.fit(lambda v: {"x": 2.0 * v}, {"v": Uniform(0, 9)}, {"x": (4.0, 1.0)})
     assert by_name.speed_a is None is by_name.speed_b
@@ -165,6 +168,7 @@ def test_a_wall_has_no_speed_that_could_be_found():
     assert (found.speed_a, found.speed_b) == pytest.approx((15.0, 0.0), abs=1e-12)
 
 
+@pytest.mark.slow
 def test_cases_of_a_batch_have_speeds_and_numbers_of_their_own():
     seen = np.array([1.0, 1.02]) * CRASH.a.delta_v
     (many, *_) = reconstruct.speeds(A, B, **COURSES, speed_b=9.0, delta_v_a=seen)
@@ -232,6 +236,7 @@ def test_all_that_was_known_stands_on_the_page_with_its_number():
     assert "delta-V forward of A, as its recorder reads it | -17.90 mph" in table
 
 
+@pytest.mark.slow
 def test_what_the_answer_has_stands_beside_a_component_that_it_does_not_meet():
     parts = {
         f"delta_v_{part}_a": getattr(CRASH.a, f"delta_v_{part}") for part in ("forward", "left")
@@ -244,6 +249,7 @@ def test_what_the_answer_has_stands_beside_a_component_that_it_does_not_meet():
     assert float(answer.split()[0]) == pytest.approx(found.a.delta_v_left, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_what_is_stated_of_an_input_stands_beside_it():
     def solved(delta_v_a):
         (found,) = reconstruct.speeds(
@@ -319,6 +325,7 @@ def test_what_was_given_is_found_again_from_a_report(known):
     assert col.explain(col.Impact.from_dict(found.to_dict()), form="text")
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
 @pytest.mark.parametrize("shown", [False, True], ids=["friction known", "friction shown"])
 def test_what_was_given_beside_a_car_that_stands_is_found_again(shown):
@@ -336,6 +343,7 @@ def test_what_was_given_beside_a_car_that_stands_is_found_again(shown):
     assert "near_collinear" not in {one.code for one in col.diagnose(found)}
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
 def test_a_record_cannot_say_that_another_ending_was_stated():
     """Nor that one was where components did not ask for it; and its condition is a number."""
@@ -360,6 +368,7 @@ def test_a_record_cannot_say_that_another_ending_was_stated():
                 replay(tampered(page, forged))
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
 def test_what_was_asked_in_other_ways_is_found_again():
     """Motions after by speed and course, a restitution that was a function, and courses that are
@@ -392,6 +401,7 @@ def test_what_was_asked_in_other_ways_is_found_again():
         assert replay(report(one, form="markdown", figures=False)) == one
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
 @pytest.mark.parametrize(
     ("courses", "masses", "inertias", "both", "normal"),
@@ -439,6 +449,7 @@ def test_one_that_just_sticks_or_just_slides_is_found_again(
                 replay(changed)
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
 def test_an_energy_that_sticking_does_not_lose_is_found_again():
     """Within what components may differ by."""
@@ -475,6 +486,7 @@ def of_planar_stuck():
     return reconstruct.planar(end.a.after, end.b.after, restitution=0.1, regime="sticking", **place)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("solve", "name"),
     [
@@ -530,6 +542,7 @@ def test_a_yaw_rate_after_that_was_changed_is_refused():
         replay(tampered(page, lambda r: given_of(r).update({"a_after.yaw_rate": rate})))
 
 
+@pytest.mark.slow
 def test_a_page_says_that_a_condition_with_a_function_cannot_be_checked_from_it():
     """The record has the restitution alone, not how steep the function is."""
     known = {"speed_b": 9.0, "delta_v_a": CRASH.a.delta_v}

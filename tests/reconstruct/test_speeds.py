@@ -286,6 +286,7 @@ def test_two_roots_close_together():
     assert max(found) > 0.97
 
 
+@pytest.mark.slow
 def test_a_parked_car_needs_no_course():
     """A course of None goes with a known speed of 0; a barrier too."""
     impact = col.eccentric(A.replace(vx=12.0), B, 0.1, **CONTACT)
@@ -317,6 +318,7 @@ def test_a_parked_car_needs_no_course():
     assert found.a.before.vx == pytest.approx(12.0, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_dissipated_and_absorbed_energy_differ_by_restitution():
     """Without friction the energy dissipated is 1 - e**2 of that absorbed at maximum crush, which
     the speeds of maximum crush stand for.
@@ -331,6 +333,7 @@ def test_dissipated_and_absorbed_energy_differ_by_restitution():
         assert found.a.before.vx == pytest.approx(12.0, rel=1e-13)
 
 
+@pytest.mark.slow
 def test_both_ees_are_the_energy_lost():
     """By ISO 12353 they stand for the energy dissipated: the roots are those of that energy,
     whatever the share.
@@ -405,6 +408,7 @@ def test_a_negative_speed_is_said():
     assert found.b.before.vx == pytest.approx(-5.0, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_a_parked_car_does_not_go_backwards():
     """Its speed is found as 0 but for rounding, to either side."""
     rng, below = np.random.default_rng(3), 0
@@ -694,6 +698,7 @@ def test_the_condition_is_that_of_the_whole_call(pair, restitution):
     assert ask(**known).reconstruction.condition == pytest.approx(sensitivity(ask, known), rel=1e-5)
 
 
+@pytest.mark.slow
 def test_the_slope_of_the_function_counts():
     """With the published example of a falling restitution the condition is not that of the same
     restitution as a number.
@@ -842,6 +847,7 @@ def test_very_small_and_very_large_speeds(size):
         )
 
 
+@pytest.mark.slow
 def test_speeds_beyond_floats():
     """Where the energy of the answer overflows that is said, alone and in a batch."""
     with pytest.raises(col.InputError) as caught:
@@ -1023,6 +1029,7 @@ def test_every_root_loses_what_was_given(first, friction, law, short):
     assert answered > 0 or friction == 0.0
 
 
+@pytest.mark.slow
 def test_a_loss_touching_its_least_is_found():
     """A share of the critical ratio with a restitution of 1 loses 0 J where sticking takes no
     tangential impulse, more to both sides.
@@ -1088,6 +1095,7 @@ def test_negative_lanes_are_refused(known, wrong):
         assert root.closing_speed[case] == pytest.approx(single.closing_speed, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_a_batch_says_what_it_refused():
     """One warning for cases without any root, at the caller's line; none where every case has one,
     be it not two.
@@ -1365,6 +1373,7 @@ def test_no_answer_is_among_the_candidates_that_are_not_polished(near, monkeypat
     assert answers() == some
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
 def test_a_function_of_restitution_loses_no_answer_beside_a_fold():
     """Two answers whose restitutions differ by 3e-4, both in the cell of the search in which the

@@ -104,6 +104,7 @@ KNOWNS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KNOWNS)
 def test_round_trips(kind):
     """The speeds come out again to rounding times the condition; where the contact slid, one of
@@ -143,6 +144,7 @@ def test_round_trips(kind):
     assert answered > 15
 
 
+@pytest.mark.slow
 def test_a_batch_is_its_cases():
     """As one by one; refused cases are NaN with their status, the others untouched."""
     sticks = [
@@ -281,6 +283,7 @@ def test_closed_form_and_condition_of_point_masses():
     )
 
 
+@pytest.mark.slow
 def test_two_recorders_give_the_mean_of_their_impulses():
     """The impulse is linear in the speeds of a contact that sticks, so least squares is the mean of
     both answers.
@@ -328,6 +331,7 @@ def fields(vehicle):
     }
 
 
+@pytest.mark.slow
 def test_a_sliding_contact_takes_the_impulse_along_its_friction():
     """With a speed known the measured impulse is projected on the direction (1, mu): least squares
     by hand.
@@ -410,6 +414,7 @@ def test_no_speed_fits_the_components_better():
     assert edges > 0
 
 
+@pytest.mark.slow
 def test_forward_only_leaves_backward_roots_out():
     """A root with a negative speed is one of two, or the only one: then nothing is left."""
     hit = col.eccentric(A.replace(vx=12.0), B.replace(vx=-5.0), 0.1, **CONTACT, friction=0.5)
@@ -459,6 +464,7 @@ def fold_scene():
     return solve
 
 
+@pytest.mark.slow
 def test_the_magnitude_is_a_fold():
     """38.9 or 55.7 km/h at 28.3, 28.9 or 65.7 at 28.5, none at 28.2; a range that reaches it is
     warned of.
@@ -511,6 +517,7 @@ def test_an_interval_that_reaches_a_fold_is_warned_of():
     assert "fold" in {warning.message.code for warning in caught}
 
 
+@pytest.mark.slow
 def test_components_have_no_fold():
     """The same crash by its components: one answer, linear through the place where the magnitude is
     least.
@@ -604,6 +611,7 @@ def test_extremes_of_scale(size):
     )
 
 
+@pytest.mark.slow
 def test_texts_records_reports_and_explanations():
     """Units are read, kept beside the answer, told, and read back."""
     known = {"delta_v_forward_a": "-18 km/h", "delta_v_left_a": "3.6 km/h"}
@@ -631,6 +639,7 @@ def test_texts_records_reports_and_explanations():
     assert col.reporting.replay(col.report(both, form="markdown")) == both
 
 
+@pytest.mark.slow
 def test_a_study_warns_of_readings_where_hardly_any_sample_agrees():
     """Errors that are stated make many samples differ; readings that contradict, nearly all."""
     a, b = A, B
@@ -800,6 +809,7 @@ def test_the_condition_beside_an_energy_is_that_of_the_whole_call(friction, ener
     assert met > 15
 
 
+@pytest.mark.slow
 def test_beside_an_energy_a_contact_that_stuck_has_the_condition_of_one_that_slid():
     """Where no friction is known: a little more energy makes it slide, and moves both speeds."""
     a = body(26.74, 0.002, mass=2420, yaw_inertia=1723, x=-0.1, y=-4.05, heading=0.0)
@@ -827,6 +837,7 @@ def test_beside_an_energy_a_contact_that_stuck_has_the_condition_of_one_that_sli
     assert condition == pytest.approx(moved / hit.closing_speed, rel=0.01)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("with_tyres", [False, True])
 @pytest.mark.parametrize(
     ("factor", "said"),
@@ -889,6 +900,7 @@ def slid_hits(count=25):
     return hits_
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("speed", [13.7, 15.0, 16.0, 18.0])
 def test_a_small_ratio_beside_a_known_speed_does_not_say_that_it_stuck(speed):
     """A contact that slid at 0.12: the one that stuck fits within the accuracy of recorders, with

@@ -181,6 +181,7 @@ def test_a_slow_car_is_not_said_to_be_faster_than_it_was(friction):
     assert -math.inf == slowest < TRUE[1] <= fastest
 
 
+@pytest.mark.slow
 def test_a_refusal_says_that_the_contact_that_stuck_goes_backwards():
     given = {**MET, **slow(), "friction": math.inf}
     with pytest.raises(col.AmbiguousSolutionError) as refused:

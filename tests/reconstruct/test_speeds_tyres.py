@@ -101,6 +101,7 @@ def refined(impact, known, contact, wheels, e):
         yield start, speeds_with_tyres(inputs, directions, tuple(start), known, ())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("names", PAIRS, ids=lambda names: "-".join(names))
 def test_the_speeds_of_a_forward_answer_are_found_again(names):
     rng, met, moved = random.Random(41), 0, []
@@ -140,6 +141,7 @@ def test_the_speeds_of_a_forward_answer_are_found_again(names):
     assert np.median(moved) > 0.05
 
 
+@pytest.mark.slow
 def test_a_batch_has_the_answers_of_its_cases():
     rng = random.Random(43)
     while True:
@@ -235,6 +237,7 @@ def test_an_answer_is_explained_reported_and_recorded():
     assert col.report(replay(page), form="markdown", units="si", figures=False) == page
 
 
+@pytest.mark.slow
 def test_a_batch_of_speeds_with_tyres():
     end = ended()
     known = {"speed_b": B.speed, "delta_v_a": end.a.delta_v}
@@ -444,6 +447,7 @@ BOUNDED = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
 @pytest.mark.parametrize("case", BOUNDED)
 def test_a_bound_leaves_out_no_answer_of_a_contact_that_stuck(case):
@@ -503,6 +507,7 @@ def test_no_speeds_of_a_contact_that_stuck_are_missed():
         assert min(off) < 1e-4
 
 
+@pytest.mark.slow
 def test_speeds_that_no_instant_leads_to():
     """12 and 5 m/s have these values by ``eccentric``; an instant has none of them."""
     a = col.Vehicle(mass=1500, yaw_inertia=2500, x=-2, y=0.3, heading=0, vx=12.0)
@@ -523,6 +528,7 @@ def test_speeds_that_no_instant_leads_to():
         reconstruct.speeds(a, b, **contact, **known, **lasts, forward_only=True)
 
 
+@pytest.mark.slow
 def test_a_known_value_that_any_speed_fits_is_refused():
     """A contact that slides gives the struck car the same delta-V whatever its own speed is, with
     tyres as without.
@@ -562,6 +568,7 @@ def test_each_root_is_given_once():
             assert len(in_order(scene, twice, False, met)) == 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rule", ["friction", "impulse_ratio", "critical_fraction"])
 def test_a_contact_without_friction_tells_of_the_closing_speed(rule):
     """All speeds of one closing speed have its delta-V and energy, with tyres that pull alike over
@@ -773,6 +780,7 @@ def along_b(impact, course):
     return impact.b.before.vx * math.cos(course) + impact.b.before.vy * math.sin(course)
 
 
+@pytest.mark.slow
 def test_beside_a_known_speed_one_of_three_answers_is_not_left_out():
     """A scan with ``eccentric`` shows three speeds of B; starts far from it led to two."""
     a = col.Vehicle(
@@ -974,6 +982,7 @@ def drawn_apart(rng):
     return cars, contact, wheels
 
 
+@pytest.mark.slow
 def test_an_answer_beside_the_end_of_all_answers_is_found():
     """The only one within 60 m/s lies in a step of the scan at whose other end there is none."""
     a = col.Vehicle(
@@ -1171,6 +1180,7 @@ def test_beside_an_energy_one_that_slid_is_not_said_to_have_stuck_in_silence(tyr
     assert both == {"sticking", "sliding"}
 
 
+@pytest.mark.slow
 def test_a_family_that_slides_either_way_with_tyres_is_told_so():
     """The way in doubt says that it may have slid either way, and not the first of its ways."""
     a = col.Vehicle(
@@ -1199,6 +1209,7 @@ def test_a_family_that_slides_either_way_with_tyres_is_told_so():
         )  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("factor", [0.9, 1.0, 1.1])
 def test_against_a_wall_with_tyres_an_energy_moves_no_speed(factor):
     """A wall has no delta-V, and all of the impulse is that of the vehicle."""

@@ -82,6 +82,7 @@ def test_neither_is_assumed(labels, friction):
     assert mph(slid) == pytest.approx(mph(stuck), rel=1e-10)
 
 
+@pytest.mark.slow
 def test_a_stated_contact_is_taken_at_its_word_and_the_doubt_is_said():
     """From a ratio of 0.3 on, the least friction published between vehicles."""
     with pytest.warns(
@@ -149,6 +150,7 @@ def test_the_doubt_is_said_whatever_else_is_known(beside, lasting):
     assert ("one end of a family" in text) == (not beside.startswith("speed"))
 
 
+@pytest.mark.slow
 def test_what_differs_from_components_is_named():
     """The components alone agree: it is the energy that does not."""
     with pytest.warns(col.IllConditionedWarning, match="energy_loss and delta_v_forward_a"):
@@ -289,6 +291,7 @@ def test_a_friction_far_from_the_ratio_has_a_bound_and_is_warned_of():
     assert found.normal_impulse == pytest.approx(along, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_a_friction_that_differs_is_counted_in_batches_and_studies_too():
     """As recorders that differ are: where hardly any sample agrees, something is wrong; where many
     do, the stated errors are enough to say why.
@@ -446,6 +449,7 @@ def signed(impact, label, known):
     return before.vx * math.cos(course) + before.vy * math.sin(course)
 
 
+@pytest.mark.slow
 def test_a_batch_is_its_cases():
     """As one by one, with the sides of each; those that stay open are NaN, and said to be."""
     friction = np.array([0.3, 0.45, 0.6, 1.0, 0.0])
@@ -468,6 +472,7 @@ def test_a_batch_is_its_cases():
     assert left.reconstruction.answers.tolist() == [0, 0, 2]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("friction", "more"),
     [
@@ -761,6 +766,7 @@ def test_cases_of_a_batch_without_a_direction_are_refused():
     assert list(found.reconstruction.one_sided["speed_a"]) == [0, 0, -1]
 
 
+@pytest.mark.slow
 def test_beside_a_speed_a_contact_that_slid_has_the_ratio_that_is_shown():
     """It fits exactly, while the one that stuck misses the components by what recorders may."""
     for draw in range(400):
@@ -786,6 +792,7 @@ def test_beside_a_speed_a_contact_that_slid_has_the_ratio_that_is_shown():
     assert solutions[1].a.before.speed == pytest.approx(a.speed, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_beside_a_speed_the_refusal_has_the_speeds_of_both_with_their_ratios():
     a = col.Vehicle(mass=1361, yaw_inertia=2299, x=0, y=0, heading=-0.1523)
     b = col.Vehicle(mass=1585, yaw_inertia=3470, x=3.4151, y=-1.2449, heading=-0.1409)
@@ -832,6 +839,7 @@ def misfit_of(speed_b, friction):
     return math.hypot(*off) / impact.b.delta_v, impact.regime == "sliding"
 
 
+@pytest.mark.slow
 def test_beside_a_speed_all_that_slid_and_fit_count_and_not_the_best_alone():
     """The best that slid lies next to the one that stuck, and others that fit far from it."""
     with pytest.raises(col.AmbiguousSolutionError, match="whether the contact stuck") as caught:
@@ -857,6 +865,7 @@ def test_beside_a_speed_all_that_slid_and_fit_count_and_not_the_best_alone():
     assert [fits(most * 0.99), fits(most * 1.01)] == [True, False]
 
 
+@pytest.mark.slow
 def test_a_batch_beside_a_speed_has_the_sides_of_its_cases():
     left = np.array([-3.597, -1.2, -3.597])
     forward = np.array([-1.952, -1.952, -0.5])
@@ -872,6 +881,7 @@ def test_a_batch_beside_a_speed_has_the_sides_of_its_cases():
             assert side == alone.reconstruction.one_sided["speed_b"]
 
 
+@pytest.mark.slow
 def test_beside_a_speed_there_is_no_bound_where_the_one_that_stuck_goes_backwards():
     """Two crashes, at 11.1 m/s with readings off by some percent, and at 22.39 m/s with exact ones:
     the speeds of those that slid rise from backwards to faster forwards, so that a size has no

@@ -54,6 +54,7 @@ def box(page):
     return page.split("\n## Answer\n")[1].split("\n## ")[0]
 
 
+@pytest.mark.slow
 def test_the_range_of_a_figure_stands_first_with_two_figures_of_its_half_width():
     known = spread()
     text = box(report(crash(), form="markdown", units="us", uncertainty=known))
@@ -195,6 +196,7 @@ def test_the_findings_that_matter_stand_in_the_box():
         assert finding.sentence[1:].replace("of A ", "of the Accord ") in text
 
 
+@pytest.mark.slow
 def test_a_reverse_solution_says_from_what_and_marks_what_it_found():
     page = report(found_speeds(), form="markdown", units="us")
     assert "from the speed of the Civic before and the delta-V forward of the Accord" in box(page)
@@ -245,6 +247,7 @@ def test_a_limit_that_is_round_in_si_stays_round():
     assert _round_limit(sheet, 0.2, "number") == "0.2"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("bare", [False, True])
 def test_evidence_stands_on_the_page_however_it_was_given(bare):
     """As a text with its unit, or as the float that a recorder's pulse has."""
@@ -314,6 +317,7 @@ def test_courses_that_were_given_as_numbers_stand_on_the_page():
     assert "| evidence | course of the Civic before | 90° |" in given
 
 
+@pytest.mark.slow
 def test_inputs_of_a_propagation_are_in_words():
     page = report(crash(), form="markdown", units="us", uncertainty=spread())
     part = section(page, "Uncertainty, given the stated inputs")
@@ -347,6 +351,7 @@ def test_vehicles_of_one_name_keep_their_letters():
     assert "- **A: delta-V:**" in text
 
 
+@pytest.mark.slow
 def test_a_page_is_filed_under_case_author_and_date():
     filed = {"exhibit": "12", "case": 'No. 7 "<b>\\', "author": "J. Doe"}
     filed["date"] = "25 November 2026"
@@ -375,6 +380,7 @@ def test_figures_are_numbered():
     assert "<figcaption>Figure 1. The scene from above" in pages[0]
 
 
+@pytest.mark.slow
 def test_a_fit_and_a_posterior_answer_with_their_intervals():
     seen = {"y": ("10 m/s", "0.5 m/s")}
     start = {"x": uncertainty.Uniform("0 m/s", "50 m/s")}
@@ -529,6 +535,7 @@ def test_what_a_page_of_several_does_not_take_is_refused(results, given, said):
         report(results, **given)
 
 
+@pytest.mark.slow
 def test_a_record_of_several_that_was_changed_is_refused():
     page = report([crash(), crossed()], form="markdown")
     with pytest.raises(col.InputError, match="its inputs do not give its"):

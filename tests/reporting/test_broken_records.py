@@ -155,6 +155,7 @@ def test_another_input_is_refused_or_stands_on_the_page(name):
     assert asked > 8
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["central", "stuck", "speeds"])
 def test_a_contact_velocity_is_that_of_the_impact(name):
     """Also where it was changed in all its places: one that is not that of the motions is left out

@@ -37,6 +37,7 @@ def places(svg: str, kind: str) -> list[np.ndarray]:
     ]
 
 
+@pytest.mark.slow
 def test_every_moment_has_the_numbers_of_the_run() -> None:
     run = three_cars()
     data = data_of(col.play(run))
@@ -69,6 +70,7 @@ def test_steps_of_time_are_equal_between_contacts() -> None:
     assert [frames.times[at] for at in frames.after] == list(three_cars().times)
 
 
+@pytest.mark.slow
 def test_what_is_drawn_is_what_the_run_has() -> None:
     run = three_cars()
     page = col.play(run, units="us")
@@ -112,6 +114,7 @@ def test_what_is_drawn_is_what_the_run_has() -> None:
         )
 
 
+@pytest.mark.slow
 def test_marks_grow_to_those_of_the_run() -> None:
     run = three_cars()
     page = col.play(run)
@@ -129,6 +132,7 @@ def test_marks_grow_to_those_of_the_run() -> None:
     assert not any(len(stretch) > 3 for stretch in places(first["scene"], "mark"))
 
 
+@pytest.mark.slow
 def test_a_mark_is_drawn_from_its_begin_to_its_end() -> None:
     page = col.play(over_ice())
     last = len(data_of(page)["times"]) - 1
@@ -139,6 +143,7 @@ def test_a_mark_is_drawn_from_its_begin_to_its_end() -> None:
         assert (mark[0, 0], mark[-1, 0]) == pytest.approx((30.05, 30.45), abs=1e-5)
 
 
+@pytest.mark.slow
 def test_what_is_said_of_contacts() -> None:
     run = three_cars()
     page = col.play(run, units="us")
@@ -169,6 +174,7 @@ class _Loads(HTMLParser):
         ]
 
 
+@pytest.mark.slow
 def test_the_page_loads_nothing_and_saves(tmp_path) -> None:
     page = col.play(three_cars())
     loads = _Loads()
@@ -180,6 +186,7 @@ def test_the_page_loads_nothing_and_saves(tmp_path) -> None:
     assert page == col.play(three_cars())
 
 
+@pytest.mark.slow
 def test_names_are_no_markup_and_what_moves_on_goes_on_for_a_second() -> None:
     run = coasting()
     page = col.play(run)
@@ -207,6 +214,7 @@ def through() -> Run:
     return Scene(movers=movers, contacts=[hit]).run()
 
 
+@pytest.mark.slow
 def test_findings_are_listed_and_said_when_their_time_comes() -> None:
     run = through()
     assert [one.movers for one in run.findings] == [("B", "C"), ("A", "C")]
@@ -227,6 +235,7 @@ def test_findings_are_listed_and_said_when_their_time_comes() -> None:
     assert said == [[False, False], [True, False], [True, False], [False, True], [False, True]]
 
 
+@pytest.mark.slow
 def test_a_finding_at_a_contact_comes_after_it_and_a_page_without_any_has_no_list() -> None:
     bare = over_ice()
     assert not bare.findings
@@ -238,6 +247,7 @@ def test_a_finding_at_a_contact_comes_after_it_and_a_page_without_any_has_no_lis
     assert _moment(frames, 1e9) == len(frames.times) - 1
 
 
+@pytest.mark.slow
 def test_names_do_not_stand_in_each_other() -> None:
     """Both come to rest in one place, within 0.7 m."""
     page = col.play(through())
@@ -251,6 +261,7 @@ def test_names_do_not_stand_in_each_other() -> None:
     assert math.dist(at[0], at[2]) > 2.1 * size
 
 
+@pytest.mark.slow
 def test_numbers_of_contacts_at_one_moment_stand_in_a_row() -> None:
     """Of three cars in a row with little between them, the first two meet again at once."""
     movers = {
@@ -271,6 +282,7 @@ def test_numbers_of_contacts_at_one_moment_stand_in_a_row() -> None:
     assert float(found[1][0]) - float(found[0][0]) > 14.0
 
 
+@pytest.mark.slow
 def test_angles_are_in_degrees_in_every_system() -> None:
     for units in ("si", "metric", "us"):
         data = data_of(col.play(three_cars(), units=units))

@@ -30,6 +30,7 @@ def found():
     return one.with_result("twice", lambda speed: 2.0 * speed, "m/s", speed=one["speed"])
 
 
+@pytest.mark.slow
 def test_the_answer_is_what_was_worked_out_and_the_speeds(found):
     page = col.report(found, form="markdown")
     text = box(page)
@@ -86,6 +87,7 @@ def test_each_reading_stands_in_one_row_with_what_is_computed(found):
     assert 30.0 - float(computed.split(" ")[0]) == pytest.approx(float(number), abs=0.06)
 
 
+@pytest.mark.slow
 def test_where_a_reading_and_a_prior_are_from_stands_beside_them(found):
     impact = col.linear_central(col.Vehicle(mass=1500.0, vx=20.0), col.Vehicle(mass=1500.0), 0.2)
     notes = ["A word.", {"video": "Camera at the bank", "drag": "Skid tests"}]
@@ -134,6 +136,7 @@ def test_a_gain_of_next_to_nothing_is_not_told_as_one():
     assert not [text for text in texts if "gained" in text]
 
 
+@pytest.mark.slow
 def test_a_reading_has_the_unit_that_it_was_given_in_and_figures_the_digits_of_the_table(found):
     turned = reconstruct.posterior(
         lambda angle: {"angle": angle},

@@ -26,6 +26,7 @@ def text_of(page, name):
     return found[0].split(" | ")[-1].removesuffix(" |").replace("\u2009", "")
 
 
+@pytest.mark.slow
 def test_the_cases_without_an_answer_are_counted():
     """A speed below none is refused: of a normal one of 20 +/- 10, the share below 0."""
     with pytest.warns(col.OutOfRangeWarning, match="had no answer"):
@@ -43,6 +44,7 @@ def test_the_cases_without_an_answer_are_counted():
     assert f"{whole.samples} cases, all with an answer" in page_of(whole)
 
 
+@pytest.mark.slow
 def test_bounds_have_no_shares_of_a_variance():
     """Two inputs of which only their ranges are known: no variance is spoken of."""
     known = propagate(

@@ -234,6 +234,7 @@ def test_a_report_made_of_what_a_report_holds_is_the_same(name, form, impacts):
     assert report(again, **options) == page
 
 
+@pytest.mark.slow
 def test_other_ends_of_lines_do_no_harm(impacts):
     for form in ("html", "markdown"):
         page = report(impacts["eccentric"], form=form, figures=False)
@@ -276,6 +277,7 @@ def evil_page(impacts):
     return report(impacts["evil"], title=EVIL, notes=[EVIL, "- not a list"], derivation=True)
 
 
+@pytest.mark.slow
 def test_html_is_whole_and_asks_for_nothing(evil_page):
     page = Page(evil_page)
     assert page.tags[:3] == ["html", "head", "meta"]
@@ -292,11 +294,13 @@ def test_html_is_whole_and_asks_for_nothing(evil_page):
     assert evil_page.encode("utf-8").decode("utf-8") == evil_page
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["energy gain", "example 2", "solve, linear", "pinned"])
 def test_html_of_other_parts_is_whole_too(name, impacts):
     Page(report(impacts[name], figures=False, derivation=True))
 
 
+@pytest.mark.slow
 def test_names_stay_names(impacts, evil_page):
     page = Page(evil_page)
     assert f"A ({EVIL})" in page.of("th")
@@ -321,6 +325,7 @@ def test_markdown_cannot_be_broken_by_a_note(impacts):
     assert replay(text) == impacts["example 2"]
 
 
+@pytest.mark.slow
 def test_parts_stand_in_order(impacts):
     text = report(
         impacts["eccentric"],
@@ -340,6 +345,7 @@ def test_parts_stand_in_order(impacts):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("form", ["html", "markdown"])
 def test_an_energy_gain_stands_first(form, impacts):
     text = report(impacts["energy gain"], form=form, units="si", figures=False)
@@ -452,6 +458,7 @@ def in_words(source):
     )
 
 
+@pytest.mark.slow
 def test_every_finding_is_told(impacts):
     limits = {"tyre_impulse": 0.01}
     for name in ("pinned", "eccentric", "energy gain"):
@@ -490,6 +497,7 @@ def test_limits_of_every_unit_can_be_shown(impacts):
     assert "Limit of point outside:** 0.0033 ft" in printed
 
 
+@pytest.mark.slow
 def test_assumptions_say_what_is_left_out(impacts):
     impact = impacts["eccentric"]
     text = report(impact, form="markdown", units="si", duration="50 ms", drag=0.5)
@@ -582,6 +590,7 @@ def test_no_text_prints_a_bare_nan():
     assert undefined > 4
 
 
+@pytest.mark.slow
 def test_a_figure_of_one_case_has_no_spread():
     """Of all the cases one has an answer: no bare nan for what cannot be known of it."""
     impact = col.linear_central(col.Vehicle(mass=1500.0, vx=10.0), col.Vehicle(mass=1200.0), 0.1)
@@ -629,6 +638,7 @@ def test_reverse_and_choice_are_told(impacts):
     assert "Why this model" not in report(impacts["eccentric"], form="markdown")
 
 
+@pytest.mark.slow
 def test_uncertainty_is_told():
     impact, known = crash(), spread()
     text = report(impact, form="markdown", units="si", uncertainty=known)
@@ -686,6 +696,7 @@ def test_a_range_with_a_share_is_reported_as_it_was_stated():
     assert "(90 percent), normal" in part
 
 
+@pytest.mark.slow
 def test_an_uncertainty_of_another_case_is_seen():
     text = report(crash(golf(vx="30 km/h")), form="markdown", uncertainty=spread())
     assert "of the propagation: are both of the same case?" in text
@@ -967,6 +978,7 @@ def test_a_unit_of_another_registry_is_kept_as_it_was_written(unit):
     assert report(replay(page), form="markdown") == page
 
 
+@pytest.mark.slow
 def test_a_record_can_be_read_where_the_unit_of_another_registry_is_known(monkeypatch):
     registry = pint.UnitRegistry()
     registry.define("slugfest = 14.6 kg")
@@ -994,6 +1006,7 @@ def in_texts():
     )
 
 
+@pytest.mark.slow
 def test_the_contact_is_shown_as_given():
     """In SI and in the units of the page; what reads the same is not said twice."""
     si, us = (rows(report(in_texts(), form="markdown", units=units)) for units in ("si", "us"))
@@ -1099,6 +1112,7 @@ def solved_backwards():
     return {"central": central, "planar": planar, "speeds": speeds}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("solver", ["central", "planar", "speeds"])
 def test_what_a_reverse_solver_was_given_stands_on_its_report(solver):
     """As text; and the texts of what stayed as it was given, the mass."""
@@ -1150,6 +1164,7 @@ def test_texts_that_a_reverse_solver_was_given_must_come_out(solver, name, text,
         replay(tampered(page, lambda r: r["impact"]["inputs"]["known"].update({name: text})))
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::collisions.SuspectUnitsWarning")
 def test_a_normal_without_a_unit_is_the_angle_of_the_normal():
     """A record cannot say that "5 deg" was given as a bare 1.0, nor as another angle."""
@@ -1184,6 +1199,7 @@ def test_a_number_that_four_figures_do_not_hold_is_shown_in_full():
 # What the damage shows.
 
 
+@pytest.mark.slow
 def test_damage_that_contradicts_stands_on_the_page():
     """All that diagnose takes, among the inputs as given, and the findings they make."""
     evidence = {
@@ -1261,6 +1277,7 @@ def sliding(speed):
     return {"impulse_ratio": answer.impulse_ratio, "a.pdof": answer.a.q.pdof}
 
 
+@pytest.mark.slow
 def test_an_interval_has_a_range_and_no_deviation():
     """The deviation within leaves out how far the interval goes."""
     inputs = {
@@ -1291,6 +1308,7 @@ def test_an_interval_has_a_range_and_no_deviation():
     assert 1.0 < 0.5 * (high - low) < 9.95
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("away", "centred"), [(0.09, True), (0.11, False), (-0.11, False)])
 def test_a_deviation_stands_only_beside_the_mean_of_its_propagation(away, centred):
     """A tenth of the deviation off, ± would name another middle than the propagation has: its range
@@ -1313,6 +1331,7 @@ def test_a_deviation_stands_only_beside_the_mean_of_its_propagation(away, centre
     assert stated in steps
 
 
+@pytest.mark.slow
 def test_intervals_alone_have_no_mean():
     inputs = {
         "speed": uncertainty.Interval("50 km/h", "58 km/h"),
@@ -1361,6 +1380,7 @@ def test_rounding_is_no_deviation(method):
     assert "impulse ratio has no figures, because it is the same in every case." in drawn.of("p")
 
 
+@pytest.mark.slow
 def test_shares_stay_within_0_and_100_percent():
     """A small sample puts some of them outside, by less than their error."""
     inputs = {
@@ -1391,6 +1411,7 @@ def test_shares_stay_within_0_and_100_percent():
 # The page is made again from itself.
 
 
+@pytest.mark.slow
 def test_the_options_of_a_page_are_in_its_record():
     given = {
         "title": "Case 7", "units": "us", "outline_a": (4.2, 1.8),
@@ -1420,6 +1441,7 @@ def test_the_options_of_a_page_are_in_its_record():
     }
 
 
+@pytest.mark.slow
 def test_a_unit_that_only_another_registry_has_is_kept_as_its_number():
     registry = pint.UnitRegistry()
     registry.define("blink = 0.3 s")
@@ -1436,6 +1458,7 @@ def test_options_that_report_does_not_take_are_refused(wrong):
     assert caught.value.code == "bad_record"
 
 
+@pytest.mark.slow
 def test_a_byte_order_mark_does_no_harm():
     """Editors put one before the first letter."""
     for form in ("html", "markdown"):
@@ -1470,6 +1493,7 @@ def test_a_share_of_many_cases_is_refused(share):
     assert caught.value.code == "bad_shape"
 
 
+@pytest.mark.slow
 def test_sticking_and_sliding_say_what_is_so():
     """The ratio has the sign of the slip; under "kudlich-slibar" slip ends, and may come back."""
     one_way, other_way = crash(friction=0.02), crash(golf(vy=-12.0), friction=0.02)
@@ -1523,6 +1547,7 @@ def test_half_a_place_as_text_says_which_half():
     assert ("contact", "contact point (x, y)", printed) in shown
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "contact", [{"normal": (3.0, 4.0)}, {"normal": 6.2}, {"e": UREG.Quantity(10, "percent")}]
 )
@@ -1533,6 +1558,7 @@ def test_no_row_is_said_to_be_as_it_was_given(contact):
     assert "The record at the end has every digit." in page
 
 
+@pytest.mark.slow
 def test_shares_of_a_corrected_model_say_what_is_no_input():
     """Where a correction leaves something; not where every case was asked of the finer model."""
     inputs = {"one": uncertainty.Normal(0.0, 1.0), "other": uncertainty.Normal(0.0, 1.0)}
@@ -1550,6 +1576,7 @@ def test_shares_of_a_corrected_model_say_what_is_no_input():
         assert ("the rest comes from interactions." in page) is not left
 
 
+@pytest.mark.slow
 def test_shares_of_inputs_that_act_together():
     """A product of two with mean 0: each has nothing by itself, and everything in all."""
     inputs = {"one": uncertainty.Normal(0.0, 1.0), "other": uncertainty.Normal(0.0, 1.0)}
@@ -1852,6 +1879,7 @@ def fitted():
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("form", ["html", "markdown"])
 def test_a_fit_has_a_report(form):
     found = fitted()
@@ -1939,6 +1967,7 @@ def published(impact, what):
     return re.findall(rf"\| \w+ \| {what} published [^|]* \| ([^|]*) \|", page), page
 
 
+@pytest.mark.slow
 def test_the_published_drag_stands_beside_the_drag_with_its_source(impacts):
     """The manual of Baker, travelled dry asphalt: 0.60 to 0.80 below 30 mph, 0.55 to 0.70 above."""
     impact = impacts["eccentric"]
@@ -1961,6 +1990,7 @@ def test_the_published_drag_stands_beside_the_drag_with_its_source(impacts):
     assert published(followed, "drag")[0] == [text]
 
 
+@pytest.mark.slow
 def test_each_published_restitution_has_its_source():
     """By the closing speed: nothing below 2 mph, the fit up to 15 mph, a rule and tests above."""
     for speed, source in {
@@ -1976,6 +2006,7 @@ def test_each_published_restitution_has_its_source():
         assert published(impact, "restitution")[0] == [source]
 
 
+@pytest.mark.slow
 def test_notes_stand_beside_drag_duration_outlines_and_law():
     a = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, vx=20.0, x=-2.2, y=0.0, heading=0.0)
     b = col.Vehicle(mass=1500.0, yaw_inertia=2600.0, x=2.2, y=0.0, heading=0.0)
@@ -2008,6 +2039,7 @@ def test_notes_stand_beside_drag_duration_outlines_and_law():
         report(followed, notes={"law": "None here."})
 
 
+@pytest.mark.slow
 def test_delta_v_in_the_axes_of_the_vehicle_takes_the_spread_of_its_propagation(impacts):
     """As a recorder counts it: the row has the ±, the heading is in words, and explain derives what
     it prints.
@@ -2092,6 +2124,7 @@ def test_an_input_that_does_not_move_a_speed_has_a_zero_without_a_sign():
     assert not any(text.startswith(("+0 ", "-0 ")) for *_, text in found)
 
 
+@pytest.mark.slow
 def test_what_is_left_out_is_that_of_the_duration_of_the_impact():
     """Unless another is given, 0.1 s too; both are remade from the record."""
     tyres = {f"tyres_{label}": col.travel.Tyres(0.7, 0.3, 2.7, 1.5) for label in "ab"}

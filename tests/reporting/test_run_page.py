@@ -25,6 +25,7 @@ from crashes import NAMES, coasting, three_cars
 FOOT, MPH = 0.3048, 0.44704
 
 
+@pytest.mark.slow
 def test_the_answer_comes_first_with_the_numbers_of_the_run() -> None:
     run = three_cars()
     page = col.report(run, form="markdown", units="us")
@@ -47,6 +48,7 @@ def test_the_answer_comes_first_with_the_numbers_of_the_run() -> None:
     assert "No range is stated" in answer
 
 
+@pytest.mark.slow
 def test_each_impact_the_ledger_and_the_findings_have_their_parts() -> None:
     run = three_cars()
     page = col.report(run, form="markdown", units="us")
@@ -68,6 +70,7 @@ def test_each_impact_the_ledger_and_the_findings_have_their_parts() -> None:
         assert area in page
 
 
+@pytest.mark.slow
 def test_every_vehicle_has_its_state_at_the_start() -> None:
     """In the units of the page, and as it was given where that is another."""
     run = three_cars()
@@ -166,6 +169,7 @@ def test_the_page_can_be_made_again_from_its_record() -> None:
     assert not re.search(r'(src|href)="(?!#)', page)
 
 
+@pytest.mark.slow
 def test_a_record_that_was_changed_is_refused() -> None:
     run = coasting()
     page = col.report(run, form="markdown", figures=False)
@@ -219,6 +223,7 @@ def test_every_number_of_the_impacts_in_a_record_is_held_against_the_scene() -> 
     assert replay(f"{head}{json.dumps(record)}\n```\n") == run
 
 
+@pytest.mark.slow
 def test_a_record_without_its_impacts_and_one_with_other_words_of_a_finding_are_refused() -> None:
     a = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=-6.0, y=0.3, vx=14.0, heading=0.0)
     b = col.Vehicle(mass=1200.0, yaw_inertia=1900.0, x=0.0, y=0.0, heading="90 deg")
@@ -351,6 +356,7 @@ def slid(**more: Any) -> Run:
     ).run()
 
 
+@pytest.mark.slow
 def test_the_page_has_drag_slope_title_and_who_filed_it() -> None:
     page = col.report(
         slid(),
@@ -394,6 +400,7 @@ def inputs_of(run: Run, units: Any = None) -> dict[str, str]:
     return dict(rows)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("contact", "row"),
     [
@@ -432,6 +439,7 @@ def test_the_page_says_how_a_contact_is_placed(contact: Any, row: tuple[str, str
     assert inputs_of(side_on(**contact), "us")[what] == text
 
 
+@pytest.mark.slow
 def test_the_page_has_the_order_that_is_claimed() -> None:
     assert inputs_of(side_on(order=[("A", "B")]))["as claimed"] == "A and B"
     assert "as claimed" not in inputs_of(side_on())

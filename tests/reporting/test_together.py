@@ -86,6 +86,7 @@ def test_the_picture_is_the_whole_way_with_the_measured_places(found, run):
     assert 'id="scene.Rover.measured"' not in page
 
 
+@pytest.mark.slow
 def test_outlines_are_those_of_the_scene(found):
     size = (4.4, 1.7)
     whole = scene(outline=size).replace({name: found[name].mean for name in UNKNOWN}).run()
@@ -93,6 +94,7 @@ def test_outlines_are_those_of_the_scene(found):
     assert "**Outline of A:** 4.4 m long and 1.7 m wide" in page
 
 
+@pytest.mark.slow
 def test_any_result_of_the_scene_can_be_the_answer(found, run):
     names = ["impacts[0].b.delta_v", "the speed"]
     page = col.report([found, run], form="markdown", answers=names)
@@ -112,6 +114,7 @@ def test_notes_can_be_by_paths_of_the_scene(found, run):
         col.report([found, run], notes={"Rover.mas": "Weighed"})
 
 
+@pytest.mark.slow
 def test_a_fit_has_the_picture_and_the_marks_without_ranges(run):
     fitted = reconstruct.fit(
         scene(), {"the speed": Interval("10 mph", "60 mph")}, {"Seat.rest.x": ("15 ft", "2 ft")}
@@ -155,6 +158,7 @@ def test_a_report_with_what_was_found_cannot_be_made_again_from_it(found, run):
         replay(col.report([found, run], figures=False))
 
 
+@pytest.mark.slow
 def test_impacts_of_a_run_are_counted_and_what_does_not_vary_is_left_out(found):
     """In line the PDOF is the same at every sample; a second impact follows when they touch."""
     one = scene(outline=(4.0, 1.7))
@@ -174,6 +178,7 @@ def test_impacts_of_a_run_are_counted_and_what_does_not_vary_is_left_out(found):
     assert "the same in every case" not in page
 
 
+@pytest.mark.slow
 def test_the_run_may_stand_first_and_other_results_beside_both(found, run):
     """The marks name the part that the posterior is, and every result has its part."""
     page = col.report([run, found], form="markdown", figures=False, derivation=True)

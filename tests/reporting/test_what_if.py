@@ -96,6 +96,7 @@ def solved_by_hand(numbers):
     )
 
 
+@pytest.mark.slow
 def test_every_output_is_that_of_the_public_functions():
     """Fifteen sliders anywhere: the page's numbers are those of ``eccentric`` with vehicles made
     anew.
@@ -318,6 +319,7 @@ def test_an_end_of_0_needs_no_unit():
     ]  # fmt: skip
 
 
+@pytest.mark.slow
 def test_evidence_stands_beside_what_follows():
     """Its range, the result at this place of the sliders, and whether that lies outside; a PDOF is
     the same after a whole turn.
@@ -346,6 +348,7 @@ def test_evidence_stands_beside_what_follows():
     assert "outside" in fast["cells"]["seen.a.delta_v"]
 
 
+@pytest.mark.slow
 def test_what_an_impact_was_found_from_is_its_evidence():
     known = {"course_a": "0 deg", "course_b": "90 deg", "speed_b": "40 km/h"}
     known["delta_v_a"] = f"{3.6 * IMPACT.a.delta_v!r} km/h"
@@ -401,6 +404,7 @@ def test_a_model_that_solve_chose_for_the_start_is_said_to_be_kept():
     assert kept not in what_if(fine, ranges)
 
 
+@pytest.mark.slow
 def test_speeds_stand_at_their_arrows_and_a_scale_below():
     (shown,) = moved(what_if(IMPACT, {"speed_a": ("30 km/h", "80 km/h")}, units="us"))
     found = re.findall(r'<text x="([^"]+)" y="([^"]+)"[^>]*>([^<]+)</text>', shown["scene"])
@@ -416,6 +420,7 @@ def test_speeds_stand_at_their_arrows_and_a_scale_below():
     assert float(x2) - float(x1) == pytest.approx(0.3048 * float(bar), rel=1e-12)
 
 
+@pytest.mark.slow
 def test_impacts_that_are_refused():
     """A batch, a refused case, something else; units that nobody knows; a standing car without a
     course.
@@ -461,6 +466,7 @@ def test_a_course_beyond_half_a_turn_starts_where_it_is():
     assert float(re.search(r'value="([^"]+)"', page)[1]) == pytest.approx(190.0, rel=1e-14)
 
 
+@pytest.mark.slow
 def test_from_a_case_file(tmp_path):
     """Over what is uncertain in it, or over the ranges that it names."""
     file, page = tmp_path / "case.toml", tmp_path / "page.html"
@@ -504,6 +510,7 @@ def test_a_range_of_a_case_file_has_a_unit_at_both_ends(tmp_path, capsys):
     assert "high = 80 has no unit, but speed_a low = '30 km/h' has one" in said
 
 
+@pytest.mark.slow
 def test_outlines_are_drawn_as_given(tmp_path):
     """From Python and from a file; of a vehicle without one the page says what it draws."""
     page = what_if(IMPACT, RANGES, outline_a=("19 ft", "6.7 ft"))
@@ -648,6 +655,7 @@ def check_numbers(shown, impact):
     assert bool(shown["status"]) != impact.ok
 
 
+@pytest.mark.slow
 def test_what_is_drawn_and_written_is_the_answer():
     """At every move of a slider, in node: places, headings, arrows and numbers are those of the
     public functions.
@@ -716,6 +724,7 @@ def test_what_is_drawn_and_written_is_the_answer():
     assert min(abs(one / other - 1.0) for one, other in pairwise(losses[:4])) > 0.01
 
 
+@pytest.mark.slow
 def test_keys_move_a_slider_by_its_step():
     """The power of ten that makes 10 to 100 steps, by a page five of them, and never beyond the
     ends.
@@ -743,12 +752,14 @@ def test_keys_move_a_slider_by_its_step():
     assert all(shown == unmoved[0] for shown in unmoved)
 
 
+@pytest.mark.slow
 def test_the_way_back_to_the_case():
     """Reset shows what was there at first, to the last digit."""
     first, other, again = moved(what_if(IMPACT, RANGES), ("move", "speed_a", "30"), ("reset",))
     assert first == again != other
 
 
+@pytest.mark.slow
 def test_a_wall_is_a_line_across_the_normal_and_a_truck_is_none():
     """What is fixed has an infinite mass; 60 t are a vehicle, with its outline."""
     truck = B.replace(mass="60 t", yaw_inertia=1e6)
@@ -836,6 +847,7 @@ def test_a_refused_case_says_why_in_the_browser():
     assert row[0] == col.Status.SEPARATING
 
 
+@pytest.mark.slow
 def test_an_incomplete_impact_has_its_restitution_moved_below_zero():
     """Where the solver takes it with ``incomplete=True``, the slider does; elsewhere it is refused
     as there.

@@ -38,6 +38,7 @@ def crash(**changes: Any) -> Scene:
     return Scene(movers=movers, contacts=[Contact("A", "B", at="touch", **(HIT | changes))])
 
 
+@pytest.mark.slow
 def test_a_bare_time_in_a_path_is_warned_of_once() -> None:
     """Where the path is read, and not again whenever it is looked at or worked out."""
     asked = "contacts[0].impact.B.recorded(40).forward"
@@ -74,6 +75,7 @@ def added_up(run: Any, name: str) -> dict[float, tuple[float, float]]:
     return {t: tuple(float(np.interp(t, clock, one)) for one in shown) for t in TIMES}
 
 
+@pytest.mark.slow
 def test_a_sample_is_what_accelerometers_at_the_place_of_the_recorder_add_up_to() -> None:
     run = crash().run()
     paths = [path(name, t, part) for name in PLACES for t in TIMES for part in ("forward", "left")]
@@ -176,6 +178,7 @@ def test_only_contacts_in_time_are_within_a_tolerance_of_a_curve() -> None:
         assert all(math.isfinite(part) == lasts for part in cost.differences.values())
 
 
+@pytest.mark.slow
 def test_a_sample_stands_in_words_in_a_report() -> None:
     from collisions.reporting.scene_words import result_in_words
 

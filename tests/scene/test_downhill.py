@@ -95,6 +95,7 @@ def test_without_a_place_of_rest_the_slope_is_named(drag: float) -> None:
     assert free.at(3.0)["A"].vx == 5.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("slowed", [{"drag": 0.02}, {"tyres": Tyres(0.7, 0.02 / 0.7, 2.7, 1.5)}])
 def test_a_car_that_rolls_down_into_another(slowed: dict[str, Any]) -> None:
     """Time and closing speed by kinematics along the road; all energy is accounted for."""
@@ -124,6 +125,7 @@ def test_a_car_that_rolls_down_into_another(slowed: dict[str, Any]) -> None:
     assert many.rest["A"].x[0] == pytest.approx(run.rest["A"].x, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_two_that_gain_speed_differently() -> None:
     """A begins behind and slower, and its drag is less: it comes to B where both ways are one."""
     movers = {"A": car(3.0, 0.0, slowed={"drag": 0.01}), "B": car(6.0, 24.5, slowed={"drag": 0.05})}
@@ -159,6 +161,7 @@ def test_a_contact_that_lasts_on_a_slope_that_speeds_both_up(restitution: float)
     assert missing(run) < 1e-6
 
 
+@pytest.mark.slow
 def test_what_stops_uphill_and_rolls_back_is_refused_before_it_is_struck() -> None:
     """It stops after 0.9 s and would then roll back, also where only the impact is asked for."""
 
@@ -181,6 +184,7 @@ def test_what_stops_uphill_and_rolls_back_is_refused_before_it_is_struck() -> No
         assert many == pytest.approx([math.nan, early], nan_ok=True, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_one_that_rolls_back_meanwhile_is_refused_and_a_level_case_beside_it_is_not() -> None:
     """It stops uphill within a second, and could roll anywhere until the others meet. On the level
     it stands.
@@ -203,6 +207,7 @@ def test_one_that_rolls_back_meanwhile_is_refused_and_a_level_case_beside_it_is_
     assert refused.value.code == "never_stops"
 
 
+@pytest.mark.slow
 def test_a_case_that_rolls_back_before_two_contacts_has_the_reason_that_it_has_alone() -> None:
     """The contact of the other two does not come either."""
     movers = {
@@ -221,6 +226,7 @@ def test_a_case_that_rolls_back_before_two_contacts_has_the_reason_that_it_has_a
     assert str(refused.value).startswith("A")
 
 
+@pytest.mark.slow
 def test_a_car_that_rolls_down_is_refused_where_its_rest_is_asked_for() -> None:
     movers = {
         "A": car(8.0, -10.0, slowed={"tyres": ROLLS}),
@@ -256,6 +262,7 @@ def test_a_car_that_rolls_down_is_refused_where_its_rest_is_asked_for() -> None:
     assert both == pytest.approx([speed] * 2, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_a_wheel_that_rolls_on_leaves_the_third_car_behind() -> None:
     """The search for a touch ends where one that gains speed has passed all others."""
     rule = Contact("A", "B", tyres_after={"A": LOCKED}, **IN_LINE)
@@ -271,6 +278,7 @@ def test_a_wheel_that_rolls_on_leaves_the_third_car_behind() -> None:
     assert not run.findings
 
 
+@pytest.mark.slow
 def test_what_nothing_slows_goes_on_from_a_contact_that_lasts_to_the_next() -> None:
     lasts = {"restitution": 0.1, "friction": 0.0, "normal": 0.0, "at": "touch", "duration": 0.1}
     movers = {"A": car(10.0, -10.0), "B": car(0.0, 0.0), "C": car(0.0, 60.0)}

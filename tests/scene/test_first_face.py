@@ -122,6 +122,7 @@ def test_at_a_time_and_from_the_start_it_is_the_face_of_the_touch() -> None:
     assert tried > 25
 
 
+@pytest.mark.slow
 def test_cases_of_a_batch_at_a_time() -> None:
     """As single runs, on wheels, where some touch in the scene and others before it."""
     wheels = Tyres(0.7, 0.3, 2.6, 1.5)

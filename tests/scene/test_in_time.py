@@ -106,6 +106,7 @@ def test_one_at_a_touch_begins_there() -> None:
         assert getattr(ends["A"], name) == pytest.approx(start + way, abs=2e-4)
 
 
+@pytest.mark.slow
 def test_a_short_contact_is_that_of_stronges_impulse() -> None:
     """The limit of the solver; the places of rest come nearer in proportion to the duration."""
     movers = {
@@ -165,6 +166,7 @@ def test_cases_of_a_batch_equal_single_runs() -> None:
             assert batch.rest[name].y[case] == pytest.approx(alone.rest[name].y, abs=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("at", [0.0, "touch"])
 def test_while_a_contact_lasts_the_cars_move_as_its_curves_say(at) -> None:
     """From first touch, or from maximum engagement on; the ways are sums of the velocities."""
@@ -282,6 +284,7 @@ def test_the_least_model_within_a_tolerance_may_be_that_in_time(at: Any) -> None
     assert kept == pytest.approx(0.0, abs=1e-3 * energy["before"])
 
 
+@pytest.mark.slow
 def test_a_contact_whose_impulse_is_due_while_another_lasts_waits_for_its_end() -> None:
     """The struck car is touched from behind 13 ms before it is struck; the impulse of that would
     act within the contact, and acts as it ends.
@@ -354,6 +357,7 @@ def test_tyres_have_the_friction_of_the_ground_while_a_contact_lasts(model, lock
     assert batch.impacts[0].b.delta_v[0] == pytest.approx(run.impacts[0].b.delta_v, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_wheels_on_different_ground_have_the_mean_and_that_is_said() -> None:
     """The left wheels are on ice."""
     run = on_ice(Tyres(0.7, 1.0, 2.7, 1.5), around(0.0, 9.0, 0.1), "eccentric")
@@ -365,6 +369,7 @@ def test_wheels_on_different_ground_have_the_mean_and_that_is_said() -> None:
         on_ice(Tyres(0.7, 1.0, 2.7, 1.5), around(0.0, 9.0, np.array([0.1, 0.7])), "eccentric")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("model", ["eccentric", "solve"])
 def test_nor_does_it_act_beside_the_impulse_of_the_tyres_of_the_other(model) -> None:
     """The struck car goes on by the velocity after the impact until the contact has passed."""
@@ -408,6 +413,7 @@ def shunt(gap: Any, **more: Any) -> Run:
     ).run()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("gap", [0.05, 0.5])
 def test_the_ground_takes_no_more_than_friction_over_the_time_of_all_contacts(gap: float) -> None:
     """Contacts of one car that overlap in time: its tyres act once. Coulomb's law bounds what they
@@ -533,6 +539,7 @@ def same_way(one: Run, other: Run, number: int | None = None) -> bool:
     return np.allclose(mine, ends[1], rtol=0.0, atol=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("at", ["touch", 0.2])
 @pytest.mark.parametrize(
     ("tolerance", "model"),
@@ -559,6 +566,7 @@ def test_the_least_model_near_enough_moves_on_as_that_model_does(
     assert impact.choice is None if model == "time_resolved" else impact.choice.model == model
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::collisions.OutOfRangeWarning")
 def test_a_case_that_solve_refuses_at_first_touch_is_that_alone() -> None:
     """At first touch there is no contact about a maximum engagement, and it is followed in time
@@ -597,6 +605,7 @@ def test_a_case_that_solve_refuses_at_first_touch_is_that_alone() -> None:
         assert batch.at(1.0)[name].x[0] == pytest.approx(alone.at(1.0)[name].x, abs=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tolerance", [0.001, 1.0, 8.0])
 def test_an_impact_of_the_least_model_comes_back_from_its_record(tolerance: float) -> None:
     """It is what ``solve`` gives, or the contact in time; its reason holds where it acts."""
@@ -629,6 +638,7 @@ def test_tyres_in_a_contact_in_time_act_for_what_is_left_of_it_as_it_lasts() -> 
     assert f"of its {lasts:.3g} s" in found.sentence
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:in . of . cases of the scene two vehicles")
 @pytest.mark.parametrize("at", ["touch", 0.2])
 def test_cases_of_which_each_has_its_own_least_model_are_those_alone(at: Any) -> None:

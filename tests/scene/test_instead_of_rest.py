@@ -28,6 +28,7 @@ def crossing() -> Scene:
     return Scene(movers=movers, contacts=[hit])
 
 
+@pytest.mark.slow
 def test_speeds_and_courses_after_the_impact_lead_back() -> None:
     """The readings are of ``eccentric`` on the same two vehicles."""
     crash = crossing()

@@ -102,6 +102,7 @@ def test_beyond_an_end_of_a_mark_the_distance_is_from_that_end() -> None:
     assert found == pytest.approx([5.0, -0.5, -0.1], rel=1e-6)
 
 
+@pytest.mark.slow
 def test_a_mark_is_where_the_tyre_uses_90_percent_of_the_friction() -> None:
     """On both sides of a contact, and with gaps: against all places of the track that mark."""
     scene = crash()
@@ -120,6 +121,7 @@ def test_a_mark_is_where_the_tyre_uses_90_percent_of_the_friction() -> None:
             assert abs(distance) == pytest.approx(brute, abs=1.5 * step)
 
 
+@pytest.mark.slow
 def test_a_mark_ends_where_the_wheel_leaves_off_and_not_at_the_last_moment_before() -> None:
     """The distance from an end that moves with the speed moves evenly with it."""
     scene = crash()
@@ -162,6 +164,7 @@ def used(friction: float, lock: float, wheel: tuple[float, float], car: Any) -> 
     return np.hypot(along, across), car.x + x, car.y + y
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("lock", [0.1, 0.3, 0.6])
 def test_a_mark_ends_where_the_use_of_friction_falls_below_90_percent(lock: float) -> None:
     scene = spun(lock, vx=25.0, vy=-3.0, yaw_rate=1.4)
@@ -177,6 +180,7 @@ def test_a_mark_ends_where_the_use_of_friction_falls_below_90_percent(lock: floa
     assert ends == pytest.approx(found[last][1:], abs=2e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("model", ["time_resolved", "eccentric"])
 @pytest.mark.parametrize("duration", [0.1, 0.2])
 def test_wheels_mark_while_a_contact_lasts(duration: float, model: str) -> None:
@@ -205,6 +209,7 @@ def test_wheels_mark_while_a_contact_lasts(duration: float, model: str) -> None:
     assert begin == pytest.approx([0.1, 1.6], abs=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", range(3))
 def test_a_batch_has_the_distances_of_its_cases(case: int) -> None:
     scene = crash()
@@ -308,6 +313,7 @@ def test_ends_of_a_mark_are_said_by_true_or_false() -> None:
         scene.mark_points("A", "front_left", [(1, 2)], 0.1, begins=True, ends=True)
 
 
+@pytest.mark.slow
 def test_where_a_mark_begins_and_ends_is_compared_by_both_coordinates() -> None:
     scene = crash()
     points = [("10 ft", 2), (3, 4), (5, 6)]
@@ -331,6 +337,7 @@ def test_where_a_mark_begins_and_ends_is_compared_by_both_coordinates() -> None:
     assert end == pytest.approx((x[-1], y[-1]), abs=1e-3)
 
 
+@pytest.mark.slow
 def test_a_mark_with_gaps_begins_with_its_first_piece_and_ends_with_its_last() -> None:
     """Of many cases, of which some leave none; against the marks of the runs."""
     scene = crash()

@@ -115,6 +115,7 @@ def test_a_run_comes_back_from_its_record_to_the_bit() -> None:
         Run.from_dict(record)
 
 
+@pytest.mark.slow
 def test_a_table_names_the_vehicles_in_the_units_of_the_inputs() -> None:
     text = str(crash().run().summary())
     assert "Camry and Civic" in text

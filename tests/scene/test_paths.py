@@ -146,6 +146,7 @@ def test_an_input_under_two_shared_names_is_refused_with_the_one_to_write(
     assert {once.surfaces[0][1], once.movers["B"].tyres.friction} == {0.4}
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:.*two vehicles do not part:collisions.OutOfRangeWarning")
 def test_shared_numbers_are_one_number() -> None:
     two = ("A.tyres.friction", "B.drag")
@@ -382,6 +383,7 @@ def test_what_is_stated_of_an_input_has_its_kind() -> None:
                 posterior(crash, {"Explorer.vx": bare}, seen)
 
 
+@pytest.mark.slow
 def test_a_bare_prior_has_the_unit_of_its_input() -> None:
     found = posterior(
         crossing(),
@@ -537,6 +539,7 @@ def test_a_text_of_an_input_or_a_reading_needs_its_unit() -> None:
     assert slowed.samples == 64
 
 
+@pytest.mark.slow
 def test_units_that_are_required_are_required_of_readings_and_tolerances() -> None:
     """As of everything else in a scene that has a dimension."""
     scene, prior = crossing(), {"Explorer.vx": Uniform("5 m/s", "25 m/s")}

@@ -62,6 +62,7 @@ def test_one_that_leans_on_another_on_a_slope() -> None:
     assert "overlap by" in said
 
 
+@pytest.mark.slow
 def test_a_batch_counts_those_of_single_cases() -> None:
     """After a blow the lorry comes up again with less than 1 m/s, which is passed over, and goes
     into the car, in two of three cases.
@@ -82,6 +83,7 @@ def test_after_a_blow_only_what_is_deeper_than_then() -> None:
     assert not driven(behind(1.0, (8.0, 5.0), (0.7, 0.7), contacts=[contact]).run())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("at", [0.0, "touch"])
 def test_a_batch_counts_them_after_a_contact_at_a_time_too(at: float | str) -> None:
     """A lorry that is braked less goes into the car it struck, whatever says when it struck it."""
@@ -110,6 +112,7 @@ def overlap(one: Any, other: Any) -> float:
     return float(least)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("y", [0.5, 0.6])
 def test_a_lorry_that_goes_into_a_car_it_struck_and_comes_out_again(y: float) -> None:
     """At rest they overlap by no more than 0.3 m above what they did at their contact, or not at
@@ -145,6 +148,7 @@ def test_a_lorry_that_goes_right_through_a_car_in_a_contact_that_lasts() -> None
     assert "driven_through" in [notice.code for notice in run.findings]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("speed", [3.1, 3.2, 4.0])
 def test_a_second_blow_does_not_take_away_the_touch_that_a_first_one_made(speed: float) -> None:
     """Cars of 4 m in line, of which C and D have met and part slowly, 0.02 m from each other. B

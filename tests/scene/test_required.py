@@ -29,6 +29,7 @@ def crash(tyres: Any = WHEELS, speed: float = 15.0, **contact: Any) -> Scene:
 UNKNOWNS = {"A.vx": Normal(15.0, 1.0), "B.tyres.friction": Uniform(0.6, 0.8)}
 
 
+@pytest.mark.slow
 def test_levels_are_the_same_crash_from_the_cheapest_to_the_finest() -> None:
     found = crash(duration=0.08, model="eccentric").required({"A.rest.x": 0.3})
     names = [(one.level.contacts, one.level.motion) for one in found.costs]
@@ -86,6 +87,7 @@ def test_the_cheapest_level_within_the_tolerances_is_taken() -> None:
     assert "taken as 0.1 s" in " ".join(near.statements)
 
 
+@pytest.mark.slow
 def test_a_drag_is_that_of_locked_wheels_on_a_straight_way() -> None:
     """And, with the front ones alone, that which the energy along the way gives."""
     locked = crash(Tyres(0.7, 1, 2.7, 1.5)).required({"A.rest.x": 1.0})
@@ -110,6 +112,7 @@ def test_a_contact_that_cannot_be_followed_in_time_stays_as_it_is() -> None:
     assert found.finest.scene.contacts[0].impulse_ratio == 0.2
 
 
+@pytest.mark.slow
 def test_a_level_is_a_model_with_the_inputs_of_its_scene() -> None:
     """Friction of tyres is an input of the level by drag too, which scales the drag."""
     found = crash().required({"B.rest.x": 0.3})
@@ -234,6 +237,7 @@ def test_the_levels_say_that_vehicles_are_driven_through_each_other(unknowns: An
     assert "'contacts in time, motion by drag'" in drag
 
 
+@pytest.mark.slow
 def test_a_scene_as_a_model_warns_of_one_case_as_of_many() -> None:
     model = driven_through().as_model(["A.speed"], ["B.rest.x"])
     with pytest.warns(col.OutOfRangeWarning) as many:

@@ -81,6 +81,7 @@ def test_a_path_by_contact_follows_its_vehicles_whatever_the_order() -> None:
     assert not study.statements
 
 
+@pytest.mark.slow
 def test_a_contact_that_comes_again_has_its_first_impact() -> None:
     run = row(14.0).run()
     assert run.pairs[:3] == (("middle", "front"), ("rear", "middle"), ("middle", "front"))
@@ -118,6 +119,7 @@ def test_an_impact_by_its_number_is_that_of_the_scene_as_written_or_nothing() ->
             assert e.value.code == "several_orders"
 
 
+@pytest.mark.slow
 def test_a_study_counts_the_cases_in_which_an_impact_is_another() -> None:
     with pytest.warns(col.CollisionsWarning) as said:
         found = propagate(row(), RANGE, outputs=["impacts[0].b.delta_v"], **ASKED)
@@ -180,6 +182,7 @@ def test_an_impact_that_is_no_certain_one_is_refused_with_its_contacts() -> None
     assert stated.as_model(["rear.vx"], ["impacts[0].b.delta_v"])
 
 
+@pytest.mark.slow
 def test_one_contact_or_the_first_at_the_start_needs_no_word() -> None:
     """Which contact an impact is then holds whatever is drawn."""
     step = LENGTH + GAP
@@ -205,6 +208,7 @@ def test_a_scene_without_contacts_has_no_impact() -> None:
         propagate(lone, RANGE, outputs=["times[0]"], **ASKED)
 
 
+@pytest.mark.slow
 def test_the_time_between_two_events() -> None:
     """Both first contacts: the way that is left, over the speed that is."""
     speeds = np.array([19.0, 24.0])

@@ -341,6 +341,7 @@ def test_a_contact_without_end_leaves_its_case_without_an_answer() -> None:
     assert caught.value.code == "never_ends"
 
 
+@pytest.mark.slow
 def test_a_contact_with_tyres_in_it_is_in_a_batch_as_alone() -> None:
     def body(vx: Any, x: float) -> Mover:
         tyres = Tyres(0.7, 1.0, 2.7, 1.5)
@@ -406,6 +407,7 @@ def test_a_record_reads_like_a_callers_numbers() -> None:
     assert caught.value.code == "bad_restitution"
 
 
+@pytest.mark.slow
 def test_a_record_has_the_number_where_its_text_reads_as_another() -> None:
     # A registry of one's own may count its units otherwise than the one that reads the record.
     pint = pytest.importorskip("pint")
@@ -524,6 +526,7 @@ def test_what_a_solver_refuses_names_the_contact_its_vehicles_and_the_time() -> 
     assert solved.impacts[0].b.delta_v == pytest.approx(5.5)
 
 
+@pytest.mark.slow
 def test_cars_bumper_to_bumper_push_on_a_delay_after_they_are_driven_together() -> None:
     rules = [Contact("A", "B", **AT_TOUCH), Contact("B", "C", **AT_TOUCH)]
     run = Scene(movers=row(), contacts=rules).run()
@@ -618,6 +621,7 @@ def test_a_little_more_push_is_an_overlap_at_rest() -> None:
     assert f"overlap by {overlap:.2g} m" in notice.sentence
 
 
+@pytest.mark.slow
 def test_a_touch_that_was_ahead_and_slow_is_looked_for_again_after_another_impact() -> None:
     """Of three cars in line: the first would touch the second again at below 1 m/s, but the second
     is stopped by the third before that, and is struck at 6 m/s.
@@ -659,6 +663,7 @@ def test_what_is_said_of_a_scene_is_in_the_units_of_its_vehicles() -> None:
         Scene(movers=far, contacts=[Contact("A", "B", **IN_LINE)]).run()
 
 
+@pytest.mark.slow
 def test_findings_of_a_scene_follow_the_units_that_are_asked_for() -> None:
     """In every place that has them; the finding itself stays in those of its vehicles."""
     lorry = col.Vehicle(mass=2e4, yaw_inertia=9e4, x=-12.0, y=0.4, heading=0.0, vx=15.0)
@@ -777,6 +782,7 @@ def test_each_part_of_a_mapping_or_a_tuple_with_a_unit_is_a_quantity() -> None:
     assert [one.m_as("percent") for one in wheels.locks] == pytest.approx([10, 20, 30, 40])
 
 
+@pytest.mark.slow
 def test_an_impact_that_gains_energy_is_said_wherever_the_run_is_shown() -> None:
     """By a ratio of impulses that no friction gives; the status of the run is that it was run."""
     bodies = {
@@ -821,6 +827,7 @@ def test_the_status_of_an_impact_is_empty_in_cases_without_it() -> None:
     assert columns["impacts[0].status"] == ["", "ok"]
 
 
+@pytest.mark.slow
 def test_a_blow_drives_two_together_that_close_already() -> None:
     """C brakes harder than B, which has struck it and is pushed on into it, when C strikes D: that
     is a blow for B too.

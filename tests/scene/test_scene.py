@@ -206,6 +206,7 @@ def test_a_car_that_rolled_until_it_was_struck_and_whose_wheels_the_damage_locks
         assert slid == pytest.approx(side.after.vx**2 / (2 * 0.7 * col.travel.GRAVITY), rel=1e-3)
 
 
+@pytest.mark.slow
 def test_what_a_scene_contradicts_is_refused_with_names_times_and_distances() -> None:
     a = col.Vehicle(mass=1500.0, vx=10.0, x=0.0, y=0.0, **CAR)
     b = col.Vehicle(mass=1500.0, x=20.0, y=5.0, **CAR)
@@ -238,6 +239,7 @@ def test_a_point_at_bare_first_touch_of_two_faces_is_refused() -> None:
         Scene(movers=movers, contacts=[contact]).run()
 
 
+@pytest.mark.slow
 def test_contacts_without_end_are_refused_with_the_pair() -> None:
     a = col.Vehicle(mass=1000.0, vx=5.0, x=0.0, y=0.0, heading=0.0)
     walls = {
@@ -268,6 +270,7 @@ def side_on(**contact: object) -> Scene:
     )
 
 
+@pytest.mark.slow
 def test_the_impulse_acts_at_the_depth_or_after_the_delay_that_is_asked_for() -> None:
     early, late = (side_on(delay=delay).run() for delay in (0.01, 0.02))
     assert late.times[0] - early.times[0] == pytest.approx(0.01, abs=1e-9)
@@ -283,6 +286,7 @@ def test_the_impulse_acts_at_the_depth_or_after_the_delay_that_is_asked_for() ->
     assert deep.findings[0].code == "at_deepest"
 
 
+@pytest.mark.slow
 def test_the_plane_through_the_crossings_is_that_of_both_points_where_outlines_cross() -> None:
     face, plane = side_on().run().impacts[0], side_on(plane="crossings").run().impacts[0]
     assert face.point == pytest.approx(plane.point, abs=1e-12)
@@ -292,6 +296,7 @@ def test_the_plane_through_the_crossings_is_that_of_both_points_where_outlines_c
     assert abs(plane.normal_angle - face.normal_angle) < math.radians(40.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("plane", ["face", "crossings"])
 def test_a_depth_is_along_the_normal_of_the_face_that_was_struck(plane: str) -> None:
     """A corner of A comes straight into the side of B, which stands with it across its way."""
@@ -346,6 +351,7 @@ def test_a_contact_that_lasts_has_the_impulse_of_the_tyres_once() -> None:
     assert abs(closes) < 1e-3 * energy["before"]
 
 
+@pytest.mark.slow
 def test_a_rule_is_applied_again_when_a_pair_comes_back() -> None:
     # A spun car slaps the other with its side, as most T-bones do.
     a = col.Vehicle(mass=1000.0, vx=8.0, x=-5.0, y=0.0, heading=0.0)
@@ -366,6 +372,7 @@ def test_a_rule_is_applied_again_when_a_pair_comes_back() -> None:
     assert speeds[-1] >= 1.0 > 0.5 * speeds[-1]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("slope", [(0.0, 0.0), (0.05, "-3 %")])
 @pytest.mark.parametrize(
     "slowed",
@@ -500,6 +507,7 @@ def test_a_depth_that_takes_long_to_reach_is_reached(speed: float, drag: float) 
     assert not alone.deepest[0]
 
 
+@pytest.mark.slow
 def test_two_that_stop_before_they_are_so_deep_have_no_contact_there() -> None:
     body = {"mass": 1500.0, "yaw_inertia": 2500.0, "heading": 0.0}
     # Stops 0.2 m after first touch.

@@ -108,6 +108,7 @@ def test_the_pull_over_all_of_a_contact(given: dict[str, Any], touch: bool) -> N
     assert rests.y == pytest.approx([run.rest["B"].y, level.rest["B"].y], abs=1e-3)
 
 
+@pytest.mark.slow
 def test_what_nothing_slows_is_not_pulled() -> None:
     """Nor is what is fixed; a contact without a duration takes no time, in which nothing pulls."""
     level = in_line((0.0, 0.0), touch=False, restitution=0.2, duration=0.1, slowed={}).run()
@@ -148,6 +149,7 @@ def test_what_a_contact_takes_from_what_the_slope_adds(rise: float) -> None:
     assert run.energy["contacts"][0] == pytest.approx(taken, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_the_pull_of_a_contact_that_lasts_is_not_that_of_one_at_the_same_moment() -> None:
     """B strikes C at an instant while A strikes B for a time: the first takes its own alone."""
     speeds = {"A": (-4.0, 15.0), "B": (0.0, 8.0), "C": (4.0, 0.0)}

@@ -92,6 +92,7 @@ def test_impacts_the_bar_and_the_words() -> None:
     assert "impact 2 is that of Civic and Truck at 0.70 s" in label
 
 
+@pytest.mark.slow
 def test_nothing_is_outside_the_view_and_it_is_small() -> None:
     for run in (three_cars(), coasting()):
         html = run._repr_html_()

@@ -122,6 +122,7 @@ def free_pairs(count):
         yield np.array(states), rng.uniform([3.8, 1.6], [5.0, 2.0], (2, 2))
 
 
+@pytest.mark.slow
 def test_a_touch_closes_as_fast_as_the_gap_between_the_outlines():
     """Of pairs that move freely, one by one and in a batch: by differences of the gap along
     separating axes, just before it is used up.
@@ -170,6 +171,7 @@ def test_a_touch_closes_as_fast_as_the_gap_between_the_outlines():
         assert of_batch.get(case, []) == pytest.approx(alone, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_the_rule_is_applied_again_from_a_closing_speed_of_the_outlines_of_1_m_s():
     """Two cars part, turning, and touch again as one is struck from behind; where and how fast by
     differences of the gap along the run.

@@ -68,6 +68,7 @@ def test_a_batch_counts_the_cases_of_single_runs(at: str | float) -> None:
     assert single == expected.tolist()
 
 
+@pytest.mark.slow
 def test_a_pair_with_a_contact_at_a_time_may_touch_again() -> None:
     """C drives the lighter B back into A, with which it had its contact at 0."""
 
@@ -120,6 +121,7 @@ def test_every_study_says_it() -> None:
     assert "no contact says what happens" in str(compared)
 
 
+@pytest.mark.slow
 def test_what_comes_after_all_that_is_asked_for_is_not_followed() -> None:
     """Of the impact alone, nothing that comes later is asked; of one case and of many."""
     for speed in (14.0, SPEEDS):
@@ -129,6 +131,7 @@ def test_what_comes_after_all_that_is_asked_for_is_not_followed() -> None:
             assert len(said) == count, path
 
 
+@pytest.mark.slow
 def test_a_touch_before_a_later_impact_counts_whatever_is_asked_for() -> None:
     """B goes through C to D, with which it has a contact."""
     scene = in_line()
@@ -143,6 +146,7 @@ def test_a_touch_before_a_later_impact_counts_whatever_is_asked_for() -> None:
         assert len(said) == 1
 
 
+@pytest.mark.slow
 def test_touches_that_are_passed_over_are_counted_too() -> None:
     """A creeps up to B and stops within the delay of their contact; C drives it on later."""
 

@@ -82,6 +82,7 @@ def test_a_denser_survey_is_never_worse(body):
 
 
 # The car of the surveys yaws faster than its lock of 0.2 to 0.4 allows for.
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:the yaw alone:collisions.OutOfRangeWarning")
 @pytest.mark.parametrize("spacing", [3.0, 0.8])
 def test_stated_errors_are_those_of_drawn_surveys(body, spacing):
@@ -218,6 +219,7 @@ def test_a_fast_yaw_is_warned_of():
     assert run.speed == pytest.approx(12.0, rel=0.01)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("yaw", "low", "high"), [(0.25, 0.005, 0.035), (0.499, 0.035, 0.09)])
 def test_what_a_yaw_takes_from_the_drag_is_as_the_docstring_has_it(yaw, low, high):
     """At 0.5 of the speed over 1.5 m the speed is 4 to 9 % too high, mostly 5 %: half of what 0.4

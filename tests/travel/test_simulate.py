@@ -375,6 +375,7 @@ def test_wheels_that_turn_against_an_integration_without_a_term_left_out(name):
     assert path.rest.heading == pytest.approx(turned, abs=5e-3)
 
 
+@pytest.mark.slow
 def test_wheels_that_turn_in_a_batch_and_in_a_mirror():
     """Each case of a batch as alone; the mirrored scene comes to the mirrored rest."""
     rates = np.linspace(-3.0, 3.0, 24)
@@ -430,6 +431,7 @@ def test_until_a_time_is_the_beginning_of_the_whole(name):
     assert later.time[-1] == whole.time[-1]
 
 
+@pytest.mark.slow
 def test_until_a_time_in_a_batch():
     """Each case as alone; those that move at its end have no rest and no later place."""
     locks, until = np.linspace(0.0, 1.0, 24), np.where(np.arange(24) % 2, 2.0, 30.0)
@@ -692,6 +694,7 @@ def test_a_slope_that_the_brakes_do_not_hold_is_refused():
     assert np.isfinite(path.rest.x).tolist() == [False, True, True]
 
 
+@pytest.mark.slow
 def test_load_transfer_moves_the_rest_of_spins_only():
     """Locked wheels straight ahead use the whole friction under any load; spun, the rest moves by
     some percent.
@@ -711,6 +714,7 @@ def test_load_transfer_moves_the_rest_of_spins_only():
     )
 
 
+@pytest.mark.slow
 def test_a_braked_wheel_that_stands_does_not_chatter():
     """A car that turns about its jammed wheel, and cars let on their brakes: a few hundred steps,
     not thousands.
@@ -858,6 +862,7 @@ def test_a_vehicle_at_rest_stays():
     assert path.rest == moving(0.0, 0.0, 0.0)
 
 
+@pytest.mark.slow
 def test_a_batch_is_its_cases_and_refused_ones_are_nan():
     """Arrays of the vehicle, the ground and the wheels broadcast; each case is as alone, and its
     neighbours do not matter.

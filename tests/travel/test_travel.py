@@ -248,6 +248,7 @@ def test_a_segment_cut_in_two_is_the_same_segment(d, share, f, g, end):
         assert ask(parts, drag=f, grade=[g, g], end_speed=end) == pytest.approx(whole, rel=6 * EPS)
 
 
+@pytest.mark.slow
 @run_often
 @given(lengths, drags, speeds)
 def test_the_time_is_the_change_of_speed_over_the_deceleration(d, f, end):
@@ -629,6 +630,7 @@ def test_refused_distances(speed, rest, code, said):
 # Many cases
 
 
+@pytest.mark.slow
 def test_a_batch_is_its_cases():
     """Every argument an array, broadcast, against the scalar calls; math and numpy differ by an ulp
     in hypot.
@@ -934,6 +936,7 @@ def way_of_a_spinning_wheel(speed, segments, rotating, step=2e-5):
 LOCKED = 100.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("wheels", "segments"),
     [
@@ -954,6 +957,7 @@ def test_the_spin_of_a_wheel_integrated_goes_as_far_as_a_path_says(wheels, segme
     assert way == pytest.approx(20.0, rel=3e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("wheels", "segments"),
     [
@@ -997,6 +1001,7 @@ def test_a_wheel_that_its_brake_holds_at_its_slip_angle_adds_nothing_to_the_mass
         assert found.speed == pytest.approx(alone, rel=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("lock", [0.1, 0.4, 0.7, 0.9])
 def test_wheels_that_turn_in_a_spin_count_in_a_path_as_in_a_run_out(lock):
     """Back from 81 points of a run-out that spins, forward by ``simulate``: within 0.5 %, of up to

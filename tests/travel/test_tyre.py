@@ -82,6 +82,7 @@ def test_a_braked_wheel_is_one_that_spins_until_its_brake_holds_it(lock, degrees
     assert run.drags[0] / 0.7 == pytest.approx(drags, abs=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("ground", "load"), [(0.1, 1.0), (0.9, 1.0), (0.7, 1.4), (0.35, 0.6)])
 def test_the_moment_of_a_brake_stays_on_other_ground_and_under_other_loads(ground, load):
     """A wheel braked at 0.4 is locked on ice, and rolls more freely on better ground: the
@@ -153,6 +154,7 @@ def by_floats(*numbers):
     return tyre_forces(tyres, numbers[12:16], *numbers[16:19], transfers=True)
 
 
+@pytest.mark.slow
 def test_floats_rows_and_recordings_agree():
     """The same vehicles one by one, in rows of arrays, and compiled: to rounding, with steer and
     load transfer.

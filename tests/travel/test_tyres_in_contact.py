@@ -239,6 +239,7 @@ def test_against_scipy(name):
     assert far(changes(found[400]), wanted, a, b) < 1.25e-3
 
 
+@pytest.mark.slow
 def test_no_drag_is_near_rolling_wheels():
     """The rough form in a T-bone on rolling wheels: with the drag that fits best it is 4 to 9
     percent off; tyres 0.1.
@@ -268,6 +269,7 @@ def test_no_drag_is_near_rolling_wheels():
     )
 
 
+@pytest.mark.slow
 def test_the_impulse_with_tyres_is_between():
     """With fixed places, of what tyres change the rung between leaves less than 0.6, and less than
     a third in the median.
@@ -521,6 +523,7 @@ def test_records_batches_and_balances(solver):
     assert one.again(tyres_a=None).a.tyre_impulse_x == 0.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_cases_that_differ_by_their_tyres_alone(solver):
     """Arrays of tyres make a batch of what else is one case; float32 stays float32 where all arrays
@@ -556,6 +559,7 @@ def test_more_cases_than_a_block(monkeypatch):
         assert getattr(found.b, name) == pytest.approx(getattr(wanted.b, name), rel=1e-9, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_the_least_model_with_tyres():
     """The eccentric candidate has its tyres; without a rung in time the central ones do not come
     into question.

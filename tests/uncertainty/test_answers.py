@@ -514,6 +514,7 @@ def test_a_normal_direction_of_any_spread(method, sd, middle):
     assert low < found.mean < high < low + 2.0 * math.pi
 
 
+@pytest.mark.slow
 def test_the_standard_error_of_a_mean_direction_knows_where_the_circle_was_cut():
     """It is that of a mean over 1 - the density opposite it, over that of all sides (Hotz and
     Huckemann 2015).
@@ -572,6 +573,7 @@ def test_a_wide_direction_by_derivatives(method):
     assert found.std == pytest.approx(math.radians(40.0), rel=1e-9)
 
 
+@pytest.mark.slow
 def test_a_wide_direction_at_every_place_of_an_interval():
     """Means from 150 to 210 degrees and 40 degrees about each: over the whole circle, and still one
     range.
@@ -690,6 +692,7 @@ def test_other_units_are_turned_into_si():
     assert (found.unit, found.mean) == ("m/s", pytest.approx(10.0))
 
 
+@pytest.mark.slow
 def test_to_dict_is_strict_json(chained):
     """Plain values, and what was stated."""
     record = json.loads(json.dumps(chained.to_dict(), allow_nan=False))
@@ -1279,6 +1282,7 @@ def test_what_was_never_seen_is_not_known_to_be_impossible(method):
     )
 
 
+@pytest.mark.slow
 def test_an_output_without_an_answer_at_a_place_of_an_interval():
     """Left out there, counted and warned of; refused where it has none at any place."""
     inputs = {"x": Normal(10.0, 1.0), "k": Interval(-1.0, 1.0)}

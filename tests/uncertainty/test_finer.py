@@ -25,6 +25,7 @@ def line(x, y):
     return {"z": x + y}
 
 
+@pytest.mark.slow
 def test_a_difference_that_is_a_polynomial_is_corrected_exactly():
     """z = x + y + 0.3 x y: mean 11 + 3, and the variance of products of independent inputs."""
     found = propagate(line, INPUTS, finer=lambda x, y: {"z": x + y + 0.3 * x * y}, seed=1)["z"]
@@ -144,6 +145,7 @@ def test_errors_of_both_ends_hold_where_what_is_left_depends_on_the_inputs(
     assert max(*scores, *chances) < 4.0
 
 
+@pytest.mark.slow
 def test_the_error_of_an_end_has_what_the_regression_leaves():
     """One of these seeds was 4 stated errors off, where only the sampling was counted."""
     high = optimize.brentq(lambda q: below(q) - 0.975, 2.0, 14.0)
@@ -238,6 +240,7 @@ def side_impact_with_tyres(**values):
     return side_impact(**values, duration=0.12, tyres_a=tyres, tyres_b=tyres)
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
 @pytest.mark.parametrize("seed", [1, 2])
 @pytest.mark.parametrize("friction", [Triangular(0.3, 0.5, 0.8), Uniform(0.3, 0.8)])
@@ -265,6 +268,7 @@ def test_a_regime_that_hardly_any_case_is_in_is_not_extrapolated_into(friction, 
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("least", "most_off"), [(3.1, 1e-9), (2.6, 0.5)])
 @pytest.mark.parametrize("unlike", [0.0, 1e-3])
 def test_a_difference_that_is_one_number_is_not_taken_for_that_of_another_regime(
@@ -293,6 +297,7 @@ def test_a_difference_that_is_one_number_is_not_taken_for_that_of_another_regime
         assert near.contributions["y"] == pytest.approx(0.04 / 1.04, abs=0.01)
 
 
+@pytest.mark.slow
 def test_more_cases_beyond_those_asked_than_were_asked_are_refused():
     """The first 64 of 4,096 cases are of one regime, a tenth of all others of another."""
 
@@ -339,6 +344,7 @@ def test_all_samples_may_be_asked():
     assert near["z"].contributions == alone["z"].contributions
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["quasi_random", "latin_hypercube", "monte_carlo"])
 def test_a_seed_makes_it_reproducible(method):
     options = {"seed": 3, "samples": 1024, "finer_samples": 100, "method": method}
@@ -502,6 +508,7 @@ def test_what_the_cases_asked_cannot_show_is_said():
     assert error == pytest.approx(1.0 / 512.0, rel=0.01)
 
 
+@pytest.mark.slow
 def test_the_error_of_a_mean_is_mostly_that_of_the_few_cases_asked():
     """Evenly drawn, samples know the mean of the model far better than 256 cases know that of a
     ripple of 0.3: 0.3 / sqrt(2) / 16. An error from eight parts is known to a quarter, the mean

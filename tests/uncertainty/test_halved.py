@@ -110,6 +110,7 @@ def test_correlated_inputs_and_joint_samples_stay_together():
     assert found["p"]["sum"] == pytest.approx(0.5 * 0.95, abs=0.02)
 
 
+@pytest.mark.slow
 def test_bounds_move_halfway_to_their_middle():
     inputs = {"x": Interval(1.0, 3.0), "y": Interval(0.0, 4.0)}
     found = propagate(lambda x, y: {"sum": x + y}, inputs).if_halved()

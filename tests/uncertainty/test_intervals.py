@@ -106,6 +106,7 @@ def test_extremes_on_a_ridge_and_in_a_valley():
     assert values.max() - 1e-12 <= high < values.max() + 1e-5
 
 
+@pytest.mark.slow
 def test_a_friction_limit_between_the_bounds():
     """The yaw rate of a side impact, which bends where sticking begins: bounds against 20,001
     frictions, the least speed.
@@ -213,6 +214,7 @@ def test_an_interval_knows_no_correlation():
     assert caught.value.code == "bad_correlation"
 
 
+@pytest.mark.slow
 def test_cases_between_the_bounds_without_an_answer():
     """Counted and warned of; the bounds are those of the others, and none at all is refused."""
 
@@ -235,6 +237,7 @@ def test_cases_between_the_bounds_without_an_answer():
     assert refused.value.code == "all_failed"
 
 
+@pytest.mark.slow
 def test_directions_across_pi():
     """From 175 degrees on to 185, not from -180 to 180; an angle without its unit keeps the range
     it has.
@@ -289,6 +292,7 @@ def test_an_interval_is_never_drawn_from():
     assert found.samples == sum(x.size for _, x in searched + ran)
 
 
+@pytest.mark.slow
 def test_extremes_between_the_places_of_a_grid():
     """Delta-V is greatest where the impulse passes through the centre of mass: away from any place
     that a grid would take.
@@ -462,6 +466,7 @@ def test_a_spread_that_is_not_known_is_strict_json():
     assert record["outputs"]["y"]["std"] == ["nan", "nan"]
 
 
+@pytest.mark.slow
 def test_failures_over_an_interval_are_told_once():
     """In all, not once for each place: of the square root of x in one case of six none, of 256
     draws to a binomial deviation.
@@ -479,6 +484,7 @@ def test_failures_over_an_interval_are_told_once():
     assert found.failed / found.samples == pytest.approx(0.5 * math.erfc(math.sqrt(0.5)), abs=0.02)
 
 
+@pytest.mark.slow
 def test_progress_over_an_interval():
     """Of all places together, rising to the end."""
     seen = []
@@ -495,6 +501,7 @@ def test_progress_over_an_interval():
     assert seen == [(done, total) for done in range(100, total + 1, 100)]
 
 
+@pytest.mark.slow
 def test_an_interrupt_over_an_interval():
     """What is done is returned, and it is said that the bounds are not those of the
     whole interval.
@@ -532,6 +539,7 @@ def test_an_interrupt_over_an_interval():
         propagate(lambda x, k: stop(300, 0), inputs, method="first_order")
 
 
+@pytest.mark.slow
 def test_directions_across_pi_at_every_place():
     """A heading known to lie within an interval across the jump, and a course with an error: bounds
     of one range without a gap.
@@ -554,6 +562,7 @@ def test_directions_across_pi_at_every_place():
     assert np.degrees(found.std) == pytest.approx([1.0, 1.0], abs=0.02)
 
 
+@pytest.mark.slow
 def test_a_local_method_is_not_random():
     """The same places between the bounds are found every time, with a seed too: the result could
     not say which it was.
@@ -569,6 +578,7 @@ def test_a_local_method_is_not_random():
     assert all(other.to_dict() == one.to_dict() for other in others)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("beside", [False, True])
 @pytest.mark.parametrize("periods", [1.3, 2.1, 2.9])
 def test_smooth_extremes_of_several_valleys_are_found(periods, beside):
@@ -589,6 +599,7 @@ def test_smooth_extremes_of_several_valleys_are_found(periods, beside):
         assert found["o"].mean == pytest.approx((at.min(), at.max()), abs=1e-6)
 
 
+@pytest.mark.slow
 def test_as_many_intervals_as_there_may_be_take_little_memory():
     """Every one doubles the corners; what is compared with its neighbours is no more than they
     are, and not the 4**14 places of a grid with a margin, 2 GB of them.

@@ -198,6 +198,7 @@ def test_second_order_is_exact_on_quadratics_of_other_inputs(one, other):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:method=:collisions.OutOfRangeWarning")
 def test_second_order_skewness_of_inputs_that_are_not_normal():
     """Of a slightly bent model of a uniform input: to first power of the bend, 6 g^2 (h/2) (m4 -
@@ -355,6 +356,7 @@ def test_local_results_are_not_random():
 # Against sampling, on real scenes
 
 
+@pytest.mark.slow
 @both_orders
 def test_a_nearly_straight_scene(method):
     """The chain from marks through travel and momentum: no warning, and within a tenth of the
@@ -565,6 +567,7 @@ def test_a_smooth_model_is_no_bend(curve, method):
     assert math.isfinite(found["y"].std)
 
 
+@pytest.mark.slow
 @both_orders
 def test_a_direction_across_pi_over_an_interval(method):
     """The bounds stand on one side of the cut: 8 degrees either way, and the deviation in each
@@ -609,6 +612,7 @@ def test_an_interval_gives_bounds_on_what_is_local(method):
     assert math.isnan(found.mean_standard_error)
 
 
+@pytest.mark.slow
 @both_orders
 def test_a_local_warning_is_given_once_over_an_interval(method):
     """Not at each of the places, and with the worst of them."""

@@ -106,6 +106,7 @@ def test_the_standard_error_is_infinite_where_the_quantile_may_be_and_none_where
     assert math.isnan(output.quantile_standard_error(0.04))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["quasi_random", "latin_hypercube", "monte_carlo"])
 def test_the_standard_error_of_a_probability_is_how_far_it_is_off(method):
     """Of a condition that no side leaves open: every case above 8 says "at least"."""

@@ -329,6 +329,7 @@ def test_the_stated_correlation_of_normals(rho):
     assert found.correlation["a", "b"] == pytest.approx(rho, abs=0.01)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rho", [1.0, -1.0, 1])
 def test_a_shared_scale(rho):
     """Correlation of plus or minus 1: one goes with the other in every case, to rounding, and both
@@ -576,6 +577,7 @@ def test_an_output_that_differs_by_rounding_alone_has_nothing_to_share(method):
     assert found["sum"].contributions["x"] > 0.9
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("method", "samples"), [("monte_carlo", 8192), ("quasi_random", 8192), ("quasi_random", 2048)]
 )

@@ -392,6 +392,7 @@ def test_threads_that_a_model_starts_are_counted_in_a_copy_of_its_context_alone(
     assert any("it slid" in text for text in found.statements)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("before", [False, True])
 @pytest.mark.parametrize("study", ["propagate", "fit", "posterior"])
 def test_other_threads_say_nothing_of_a_study_and_hear_nothing_of_it(study, before):
@@ -465,6 +466,7 @@ def speed_of_course(course, speed):
 WITHIN = "in a study within the model, "
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("threads", [1, 2])
 def test_what_a_study_within_a_model_states_is_stated_once(threads):
     """As by that study alone, with its own numbers."""
@@ -498,6 +500,7 @@ def test_what_a_study_within_a_model_states_is_stated_once(threads):
     assert sorted(twice.statements) == sorted(2 * WITHIN + text for text in alone.statements)
 
 
+@pytest.mark.slow
 def test_many_studies_within_a_model_that_differ_in_numbers_alone_are_one_statement():
     """A study for each case, which states and raises other numbers for each."""
 
@@ -541,6 +544,7 @@ def test_what_a_study_within_a_model_says_of_things_with_numbered_names_is_all_s
         assert "several" not in said
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
 def test_what_a_study_that_works_back_says_is_said_wherever_it_is():
     """A fit within ``propagate``, and ``propagate`` within a fit: both work back."""
@@ -577,6 +581,7 @@ def test_what_a_study_that_works_back_says_is_said_wherever_it_is():
     assert not any(instant in text for text in again.statements)
 
 
+@pytest.mark.slow
 def test_fits_and_posteriors_give_a_loop_no_share():
     counted = []
 
@@ -649,6 +654,7 @@ def test_what_a_reference_value_warns_of_reaches_the_study():
     assert [one.message.code for one in caught].count("outside_reference") == 1
 
 
+@pytest.mark.slow
 def test_bounds_alone_state_the_warnings_too():
     found, caught = quiet(lambda: propagate(gaining, {"ratio": Interval(-0.6, 0.6)}))
     assert any("gains energy" in one for one in found.statements)
@@ -689,6 +695,7 @@ def test_a_fit_states_what_the_model_warns_of_at_the_answer():
     assert any("outside" in one for one in found.to_dict()["statements"])
 
 
+@pytest.mark.slow
 def test_a_comparison_states_the_warnings_of_its_posteriors():
     def account(low):
         def model(speed):
@@ -737,6 +744,7 @@ def test_a_censored_reading_is_no_input_and_is_not_called_an_interval():
         propagate(lambda x: {"y": x}, {"x": Censored(low=1.0)})
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "restitution",
     [
@@ -771,6 +779,7 @@ def test_a_function_of_restitution_warns_of_the_answer_alone(restitution):
     assert not caught[0].message.fields.get("times")
 
 
+@pytest.mark.slow
 def test_a_function_of_restitution_warns_of_the_answers_of_speeds():
     """Of three cases the first two are answered, one of them beyond 15 mph."""
     a = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=-2.0, y=0.0, heading=0.0)
@@ -808,6 +817,7 @@ def test_profiles_that_may_be_in_other_units_are_counted_by_case():
     assert [one.message.code for one in caught] == ["suspect_units"]
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
 @pytest.mark.parametrize("kept", ["output", "result"])
 def test_what_only_some_samples_of_a_posterior_have_is_said(kept):
@@ -844,6 +854,7 @@ def test_what_only_some_samples_of_a_posterior_have_is_said(kept):
         assert said in place
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
 def test_what_a_result_warns_of_is_told_from_what_the_model_warns_of():
     """The same of the same samples, and, with a distribution drawn beside them, of others."""
@@ -903,6 +914,7 @@ def test_a_contact_that_sticks_by_an_infinite_friction_is_noted_of_every_model(s
     assert found.statements[0].startswith("64 of 64 cases")
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
 @pytest.mark.parametrize("study", ["posterior", "fit"])
 def test_what_works_back_through_an_instant_says_what_that_leaves_out(study):
@@ -949,6 +961,7 @@ def test_profiles_that_do_not_go_together_are_refused_as_such():
         reconstruct.crush_energy(1.5, [np.full(3, 3.0), np.full(2, 0.3)], 4e4, 6e5)
 
 
+@pytest.mark.slow
 def test_whatever_a_function_of_restitution_warns_of_is_of_the_answer():
     """A warning of bare units in it comes once, not for each speed that is tried."""
 
@@ -962,6 +975,7 @@ def test_whatever_a_function_of_restitution_warns_of_is_of_the_answer():
     assert [one.message.code for one in caught] == ["suspect_units"]
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
 def test_a_fit_states_what_holds_at_an_end_of_its_range_alone():
     """The formula of restitution holds to 15 mph, which lies within the range and above the
@@ -985,6 +999,7 @@ def test_a_fit_states_what_holds_at_an_end_of_its_range_alone():
     assert not any("at an end" in one for one in far.statements)
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::collisions.IllConditionedWarning")
 @pytest.mark.parametrize(
     ("study", "read", "suspected"),
@@ -1020,6 +1035,7 @@ def test_a_bare_reading_of_an_angle_of_more_than_a_turn_is_suspected(study, read
         assert not said
 
 
+@pytest.mark.slow
 def test_a_bare_place_of_a_recorder_in_inches_is_suspected():
     """15 m ahead of the centre of mass is in no car; with a unit it is taken."""
     ahead = col.eccentric(A, B, 0.1, normal=0.0, point=(0.0, 0.0), friction=0.5)
