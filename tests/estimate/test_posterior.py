@@ -124,6 +124,8 @@ def test_linear_models_with_correlated_priors(seed):
         },
         correlation={("u0", "u1"): 0.7, ("u2", "u4"): -0.4},
     )
+    said = "correlation of the inputs as stated: u0 and u1 0.7, u2 and u4 -0.4"
+    assert found.statements[-1] == said == found.to_dict()["statements"][-1]
     total = matrix @ prior @ matrix.T + np.diag(sigma**2)
     gain = prior @ matrix.T @ np.linalg.inv(total)
     mean, covariance = gain @ values, prior - gain @ matrix @ prior

@@ -484,6 +484,34 @@ def test_the_scene_may_be_turned_and_exchanged(turn):
         )
 
 
+@pytest.mark.parametrize("law", ["brach", "stronge"])
+@pytest.mark.parametrize("geometry", ["maximum_engagement", "first_contact"])
+def test_nor_does_it_with_tyres_in_the_impact(law, geometry):
+    """A lorry and a car, each with tyres of its own, which go by the vehicle's own velocity and not
+    by that of the contact.
+    """
+    lorry = col.Vehicle(mass=28000, yaw_inertia=350000, x=-6.0, y=0.2, heading=0.0, vx=9.0)
+    car = col.Vehicle(mass=1300, yaw_inertia=2000, x=0.8, y=-0.6, heading=math.pi / 2, vy=7.0)
+    pinned = col.Vehicle(mass=1300, yaw_inertia=2000, x=0.8, y=-0.6, pivot=(1.5, 0.5))
+    rest = {"point": (0.0, 0.0), "friction": 0.5, "duration": 0.1, "law": law}
+    wheels, others = Tyres(0.7, 0.3, 2.6, 1.5), Tyres(0.5, 1.0, 1.4, 1.5)
+    for one, other in ((lorry, car), (lorry.replace(vx=2.0), car), (lorry, pinned)):
+        own = {"tyres_a": wheels} if other is pinned else {"tyres_a": wheels, "tyres_b": others}
+        turned = {{"tyres_a": "tyres_b", "tyres_b": "tyres_a"}[name]: own[name] for name in own}
+        impact = col.eccentric(one, other, 0.05, normal=0.0, **rest, **own)
+        swapped = col.eccentric(other, one, 0.05, normal=math.pi, **rest, **turned)
+        found = col.left_out(impact, geometry=geometry)
+        again = col.left_out(swapped, geometry=geometry)
+        for name in SIDES:
+            assert getattr(again.b, name) == pytest.approx(
+                getattr(found.a, name), rel=1e-8, abs=1e-10
+            ), name
+            assert getattr(again.a, name) == pytest.approx(
+                getattr(found.b, name), rel=1e-8, abs=1e-10
+            ), name
+        assert found.a.geometry_delta_v > 1e-4
+
+
 @pytest.mark.parametrize("law", ["brach", "kudlich-slibar"])
 @pytest.mark.parametrize(
     "rule",

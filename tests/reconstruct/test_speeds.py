@@ -14,6 +14,7 @@ import pytest
 import collisions as col
 from collisions.kernels.reverse import PLACES, parabola_roots, quartic_roots
 from collisions.reconstruct import momentum, speeds
+from collisions.travel import Tyres
 from scenes import BESIDE, LAWS, RULES
 from strategies import other_registry
 
@@ -381,6 +382,27 @@ def test_parallel_courses():
     with pytest.raises(col.NoSolutionError, match=r"parallel.*give one of the speeds") as caught:
         speeds(A, B, **given, delta_v_a=impact.a.delta_v, energy_loss=impact.energy_loss)
     assert caught.value.code == "parallel_headings"
+
+
+@pytest.mark.parametrize("tyres", [{}, {"duration": 0.1, "tyres_a": Tyres(0.7, 0.3, 2.6, 1.5)}])
+@pytest.mark.parametrize("more", [{}, {"energy_loss": ...}, {"slid": "bound"}])
+@pytest.mark.parametrize("course_b", [0.0, math.pi])
+def test_parallel_courses_beside_components(tyres, more, course_b):
+    """The evidence is that of an impact, so nothing contradicts; in a batch as alone."""
+    a, b = A.replace(vx=20.0, heading=0.0), B.replace(vx=8.0 * math.cos(course_b), vy=0.0)
+    impact = col.eccentric(a, b, 0.1, **CONTACT, **tyres)
+    known = {
+        "delta_v_forward_a": impact.a.delta_v_forward,
+        "delta_v_left_a": impact.a.delta_v_left,
+        **({"energy_loss": impact.energy_loss} if "energy_loss" in more else more),
+    }
+    given = {"restitution": 0.1, **CONTACT, **tyres}
+    with pytest.raises(col.NoSolutionError, match=r"parallel.*give one of the speeds") as alone:
+        speeds(a, b, course_a=0.0, course_b=course_b, **given, **known)
+    assert alone.value.code == "parallel_headings"
+    with pytest.warns(col.CollisionsWarning):
+        found = speeds(a, b, course_a=0.0, course_b=np.array([course_b, 1.0]), **given, **known)
+    assert col.Status(found[0].status[0]).label == "parallel_headings"
 
 
 def test_a_slip_that_stays_open():

@@ -307,6 +307,35 @@ def test_what_leaves_open_whether_it_stuck_has_both_answers_with_tyres():
 
 
 @pytest.mark.slow
+def test_a_bound_with_a_car_going_backwards_says_that_it_is_of_such_cars():
+    """At walking pace the tyres may explain the components with B backwards."""
+    heading, wheels = 1.00438, Tyres(0.7, 0.3, 2.6, 1.5)
+    a = col.Vehicle(mass=1923.14, vx=6.21076, yaw_inertia=3523.54, x=-2.1, y=-0.751714, heading=0.0)
+    b = col.Vehicle(
+        mass=2048.57, vx=3.32425, vy=5.22748, yaw_inertia=4300.39, x=1.13097, y=1.06335,
+        heading=heading,
+    )  # fmt: skip
+    contact = {"normal": 0.19242804, "point": (0.0, 0.0)}
+    contact |= {"duration": 0.1, "tyres_a": wheels, "tyres_b": wheels}
+    impact = col.eccentric(a, b, 0.0744412, friction=0.208778, **contact)
+    said = "the bound is of cars that go so, and says nothing of those that go forwards"
+    with pytest.warns(col.OutOfRangeWarning, match=said):
+        (found,) = reconstruct.speeds(
+            a,
+            b,
+            course_a=0.0,
+            course_b=heading,
+            restitution=0.0744412,
+            friction=math.inf,
+            delta_v_forward_a=impact.a.delta_v_forward,
+            delta_v_left_a=impact.a.delta_v_left,
+            slid="bound",
+            **contact,
+        )
+    assert np.hypot(found.b.before.vx, found.b.before.vy) > 0.5
+    assert found.b.before.vy < 0.0
+
+
 def test_a_contact_that_slid_with_tyres_has_a_bound_that_the_truth_lies_beyond():
     """Forward answers that slid: each speed is on the side that is said, of the bound."""
     rng, met = random.Random(45), 0

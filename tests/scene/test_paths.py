@@ -47,6 +47,9 @@ def in_line(**more: Any) -> Scene:
     ("path", "near"),
     [
         ("A.tyres.fricton", "A.tyres.friction"),
+        ("contacts[00].friction", r"contacts\[0\].friction"),
+        (f"contacts[{'9' * 5000}].friction", "near it are|"),
+        ("surfaces[\u0660]", r"surfaces\[0\]"),
         ("B.tyres.friction", "A.tyres.friction"),
         ("A.vx.y", "A.vx"),
         ("C.vx", "A.vx"),
@@ -249,6 +252,11 @@ def test_results_are_asked_for_by_their_paths() -> None:
     ("path", "near"),
     [
         ("impacts[0].a.delta_w", r"impacts\[0\].a.delta_v"),
+        ("impacts[00].a.delta_v", r"impacts\[0\].a.delta_v"),
+        ("impacts[\u0660].a.delta_v", r"impacts\[0\].a.delta_v"),
+        ("impacts[99999999999].a.delta_v", r"impacts\[0\].a.delta_v"),
+        (f"impacts[{'9' * 5000}].a.delta_v", "A"),
+        (f"times[{'9' * 5000}]", "A"),
         ("B.rest.z", "B.rest"),
         ("C.rest.x", ".rest.x"),
         (3, "A.rest.x"),
@@ -260,6 +268,16 @@ def test_a_result_that_is_none_names_the_nearest(path: Any, near: str) -> None:
     assert caught.value.code == "unknown_name"
     with pytest.raises(col.InputError, match=r"near it are A\.v"):
         in_line().as_model(["A.vq"], ["end"])
+
+
+@pytest.mark.parametrize("share", ["0_1", "\u0660.\u0664", "0,4", "nan", "1e999", "1.5", "x"])
+def test_a_share_of_the_energy_is_read_as_any_number_is(share: str) -> None:
+    path = f"contacts[0].impact.B.ees({share})"
+    with pytest.raises(col.InputError, match=re.escape(path) + ": share"):
+        model(in_line(), path)
+    both = [f"contacts[0].impact.B.ees({one})" for one in ("0.4", "40 %")]
+    one, other = model(in_line(), *both)(**{"A.vx": 5.0}).values()
+    assert one == other
 
 
 def test_anything_may_stand_where_a_path_is_wanted() -> None:

@@ -327,6 +327,12 @@ def test_the_stated_correlation_of_normals(rho):
     parts = [np.corrcoef(values["a"][i::16], values["b"][i::16])[0, 1] for i in range(16)]
     assert abs(np.mean(parts) - rho) < MOST * np.std(parts, ddof=1) / 4.0
     assert found.correlation["a", "b"] == pytest.approx(rho, abs=0.01)
+    said = f"correlation of the inputs as stated: a and b {rho:g}"
+    assert found.statements == (said,)
+    assert found.to_dict()["statements"] == [said]
+    assert f"Correlation of the inputs as stated: a and b {rho:g}." in str(found.summary())
+    alone, _ = drawn({"a": Normal(1500.0, 50.0), "b": Normal(0.7, 0.1)}, {("b", "a"): 0.0})
+    assert alone.statements == ()
 
 
 @pytest.mark.slow

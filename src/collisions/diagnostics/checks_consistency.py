@@ -190,8 +190,10 @@ def restitution_negative(case: MomentumCase) -> Iterator[Measured]:
     speed = case.text(closing, "speed")
     if closing > 0.0:
         sentence = (
-            f"restitution of the centres {e:.3g} at a closing speed of {speed}: they would pass "
-            "through each other"
+            f"restitution of the centres {e:.3g} at a closing speed of {speed}: after the impact "
+            "they still approach along the normal, which the centres of vehicles that it turns "
+            "may do for a moment; ask reconstruct.restitution with the contact point, or check the "
+            "normal"
         )
         yield Measured(-e, sentence)
     else:

@@ -481,7 +481,7 @@ class _Problem:
             notes = tuple(_ruled_out(note) for note in notes)
         notes += self.notes
         stated = [*self.joint.inputs.items(), *((row.name, row.reading.value) for row in self.rows)]
-        notes += tuple(notes_of_inputs(stated))
+        notes += *notes_of_inputs(stated), *self.joint.notes
         return Posterior(
             priors=dict(self.joint.inputs),
             observed={row.name: row.reading.value for row in self.rows},

@@ -207,7 +207,9 @@ def with_motion(impact: Impact, time: Any, geometry: str) -> list[tuple[Any, Any
         return [(math.nan, math.nan)] * 2
     # In a function of its own: what it works with is freed before the impact is solved again.
     bodies, point, normal = _acted_on(impact, point, time, geometry)
-    again = solve_changed(impact, a=bodies[0], b=bodies[1], point=point, normal=normal)
+    again = solve_changed(
+        impact, a=bodies[0], b=bodies[1], point=point, normal=normal, **_tyres_as_pushes(impact)
+    )
     return [
         (
             select(
@@ -217,6 +219,25 @@ def with_motion(impact: Impact, time: Any, geometry: str) -> list[tuple[Any, Any
         )
         for old, new in ((impact.a, again.a), (impact.b, again.b))
     ]
+
+
+def _tyres_as_pushes(impact: Impact) -> dict[str, Any]:
+    """The tyres of an impact as what they did from outside, which stays where velocities are moved
+    so that those at the contact are others: tyres go by each vehicle's own.
+    """
+    inputs = impact.inputs
+    if not inputs.tyres:
+        return {}
+    takes = _takes_tyres(impact)
+    pushes = {}
+    for label in inputs.tyres:
+        side = getattr(impact, label)
+        did = side.tyre_impulse_x, side.tyre_impulse_y, side.tyre_moment
+        given = getattr(inputs, f"outside_{label}") or (0.0, 0.0, 0.0)
+        pushes[f"outside_{label}"] = tuple(
+            push + select(takes, part, 0.0) for push, part in zip(given, did, strict=True)
+        )
+    return {"tyres_a": None, "tyres_b": None, "duration": None, **pushes}
 
 
 def _acted_on(

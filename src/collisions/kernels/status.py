@@ -159,7 +159,7 @@ class Status(IntEnum):
         27, "solution", "the motion of an infinite mass tells nothing of the impact"
     )
     PARALLEL_HEADINGS = _Outcome(
-        28, "solution", "the courses are parallel, so momentum across them tells nothing"
+        28, "solution", "the courses are parallel, so nothing across them tells the speeds apart"
     )
     NO_START = _Outcome(
         29,

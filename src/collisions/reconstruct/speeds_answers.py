@@ -86,6 +86,12 @@ def answers_of(
         if name.startswith("delta_v")
     ]
     faults += [(of_wall, Status.INFINITE_MASS) for of_wall in of_walls]
+    if not scene.kinds[0].startswith("speed"):
+        # However the evidence is told, speeds along one line show as their difference alone.
+        (ax, ay), (bx, by) = (
+            [scene.numbers[f"course_{label}[{i}]"] for i in range(2)] for label in "ab"
+        )
+        faults.append((abs(ax * by - ay * bx) <= 8.0 * EPS, Status.PARALLEL_HEADINGS))
     faults.append((scene.undetermined, Status.UNDETERMINED))
     faults.append((scene.ambiguous, Status.AMBIGUOUS))
     staying = [
@@ -185,6 +191,8 @@ def answers_of(
             "backwards along its course; check the courses, and the normal, which must point "
             "from A into B"
         )
+        if isinstance(scene, ComponentScene) and scene.slid:
+            cure += "; the bound is of cars that go so, and says nothing of those that go forwards"
         text = (
             f"the speed of {whose} came out as {said(backward, 'speed', given_texts(impacts[0]))}: "
             f"{cure}"
@@ -526,15 +534,17 @@ def _refusal(
     }
     speed_is_known = scene.kinds[0].startswith("speed")
     forward = ", none of them backwards," if search.forward_only else ""
-    (ax, ay), (bx, by) = (
-        [scene.numbers[f"course_{label}[{i}]"] for i in range(2)] for label in "ab"
-    )
     if status == Status.INFINITE_MASS:
         kind = next(kind for kind in known if kind.startswith("delta_v"))
         other = "delta_v_b" if kind == "delta_v_a" else "delta_v_a"
         text = (
             f"{kind} is that of an infinite mass, whose motion tells nothing of the impact; give "
             f"{other}"
+        )
+    elif status == Status.PARALLEL_HEADINGS:
+        text = (
+            f"the courses are parallel, so {names} tell of the closing speed alone; give one of "
+            "the speeds"
         )
     elif isinstance(scene, ComponentScene) and status == Status.UNDETERMINED:
         text = (
@@ -553,16 +563,6 @@ def _refusal(
             f"{float(abs(scene.shown_ratio())):.2f}, and "
             f"`friction={float(scene.bound):.4g}` allows no more than that; give the "
             "friction that held it (or inf), or leave out `regime='sticking'`"
-        )
-    elif (
-        not isinstance(scene, ComponentScene)
-        and not speed_is_known
-        and abs(ax * by - ay * bx) <= 8.0 * EPS
-    ):
-        status = Status.PARALLEL_HEADINGS
-        text = (
-            f"the courses are parallel, so {names} tell of the closing speed alone; give one of "
-            "the speeds"
         )
     elif status == Status.UNDETERMINED and "energy_loss" in scene.kinds and scene.e > _ELASTIC:
         energy = values[scene.names[scene.kinds.index("energy_loss")]]

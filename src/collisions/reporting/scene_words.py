@@ -8,6 +8,7 @@ import re
 from ..derivation.explain import IMPACT_ANSWERS, OF_VEHICLE
 from ..derivation.wheels import OF_WHEELS
 from ..kernels.contact_laws import RULES
+from ..scene.names import AT
 from ..scene.results import OfImpact, asked_of, between
 from ..scene.run import Run
 from ..scene.scene import Scene
@@ -38,8 +39,8 @@ _MOMENTS = {
     "at_compression": "at the end of compression",
 }
 _SIDES = {"a": 0, "b": 1}
-_CONTACT = re.compile(r"contacts\[(\d+)\]\.(?:tyres_after\.([^.]+)\.)?(.+)")
-_AREA = re.compile(r"surfaces\[(\d+)\]")
+_CONTACT = re.compile(rf"contacts{AT}\.(?:tyres_after\.([^.]+)\.)?(.+)")
+_AREA = re.compile(rf"surfaces{AT}")
 _REST = re.compile(r"(.+)\.rest\.(x|y|heading)")
 _MARK = re.compile(r"(.+)\.marks\.(\w+)\.(begin|end|distance)\.?(.+)")
 

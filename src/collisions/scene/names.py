@@ -195,9 +195,11 @@ def changed_by(scene: Scene, path: str) -> tuple[str, ...]:
     return (path,)
 
 
-_OF_CONTACT = re.compile(r"contacts\[(\d+)\]\.(\w+)(?:\[([01])\])?")
-_AFTER = re.compile(r"contacts\[(\d+)\]\.tyres_after\.([^.\[\]]+)\.(\w+(?:\[[0-3]\])?)")
-_OF_LIST = re.compile(r"(surfaces|slope)\[(\d+)\]")
+# Each number has one way to be written, and none takes all memory to count up to.
+AT = r"\[(0|[1-9][0-9]{0,3})\]"
+_OF_CONTACT = re.compile(rf"contacts{AT}\.(\w+)(?:\[([01])\])?")
+_AFTER = re.compile(rf"contacts{AT}\.tyres_after\.([^.\[\]]+)\.(\w+(?:\[[0-3]\])?)")
+_OF_LIST = re.compile(rf"(surfaces|slope){AT}")
 _OF_TYRES = re.compile(r"([^.\[\]]+)\.tyres\.(\w+(?:\[[0-3]\])?)")
 _OF_MOVER = re.compile(r"([^.\[\]]+)\.(\w+)")
 

@@ -35,7 +35,7 @@ from ..quantities.tables import cells
 from ..vehicle.vehicle import UNITS as OF_VEHICLE
 from .curves import PARTS, Sample, check_lasts, no_curve, sample_of
 from .marks import WHEELS, answers, of_mark
-from .names import POLAR, no_path
+from .names import AT, POLAR, no_path
 from .scene import Scene
 
 if TYPE_CHECKING:
@@ -44,13 +44,13 @@ if TYPE_CHECKING:
 _MOMENTS = ("before", "after", "at_compression")
 _STATE = ("x", "y", "heading", "vx", "vy", "yaw_rate", "speed", "course")
 _PLACE = {"x": "m", "y": "m", "heading": "rad"}
-_IMPACT = re.compile(r"impacts\[(\d+)\]\.(.+)")
-_CONTACT = re.compile(r"contacts\[(\d+)\]\.impact\.(.+)")
-_TIME = re.compile(r"times\[(\d+)\]")
+_IMPACT = re.compile(rf"impacts{AT}\.(.+)")
+_CONTACT = re.compile(rf"contacts{AT}\.impact\.(.+)")
+_TIME = re.compile(rf"times{AT}")
 _BETWEEN = re.compile(r"([^ -]+) *- *([^ -]+)")
 REST = re.compile(r"([^.\[\]]+)\.rest\.(x|y|heading)")
 _EES = re.compile(r"([ab])\.ees\(([^)]*)\)")
-_LOOSE = re.compile(r"(?:impacts|contacts)\[(\d+)\]\.(?:impact\.)?(.+)")
+_LOOSE = re.compile(rf"(?:impacts|contacts){AT}\.(?:impact\.)?(.+)")
 END = "end"
 
 
@@ -205,10 +205,6 @@ def _labelled(scene: Scene, number: int, name: str) -> str | None:
 
 def _share(text: str, path: str, argument: str) -> float:
     reader = ArgumentReader()
-    try:
-        given: Any = float(text)
-    except ValueError:
-        given = text
     if not text:
         raise InputError(
             f"{argument} has {path!r} without the share of the energy lost that went into this "
@@ -216,7 +212,7 @@ def _share(text: str, path: str, argument: str) -> float:
             code="unknown_name",
             argument=argument,
         )
-    found = reader.number(given, "", f"{path}: share", UNIT_INTERVAL)
+    found = reader.number(text, "", f"{path}: share", UNIT_INTERVAL)
     reader.close()
     return float(found)
 

@@ -375,7 +375,7 @@ def _propagated(
         answered[name] = Bounds(name, output.unit, cases, cuts.get(name)) if intervals else output
     judged = count + sum(one.drawn for one in runs)
     count, failed = count + samples_run, failed + sum(one.failed for one in runs)
-    notes = _notes(method, runs, len(places), count, failed, whole, stated)
+    notes = _notes(method, runs, len(places), count, failed, whole, stated) + joint.notes
     found = runs[0].corrected
     if found:
         notes = (*found.notes, *notes)

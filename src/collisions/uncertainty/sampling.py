@@ -15,6 +15,7 @@ import numpy as np
 from ..engine.blocks import in_order
 from ..messages.errors import InputError
 from ..messages.marked import type_of
+from ..messages.warning import Note
 from ..quantities.reading import is_whole
 from ..quantities.refusals import must_be
 from ..quantities.units import shown
@@ -48,6 +49,7 @@ class Joint:
     def __init__(self, inputs: Mapping[str, Distribution], correlation: Correlation | None) -> None:
         self.inputs = inputs
         pairs = _read_correlation(inputs, {} if correlation is None else correlation)
+        self._pairs = pairs
         # The columns of joint samples, in the order in which they belong together.
         self._columns = {
             name: d.rows
@@ -123,6 +125,17 @@ class Joint:
         return np.array(
             [group[0] not in self._columns for group, places in self.rows.items() for _ in places]
         )
+
+    @property
+    def notes(self) -> tuple[Note, ...]:
+        """The correlations that were stated: without them nobody gets the same range again."""
+        stated = [
+            f"{one} and {other} {rho:g}"
+            for one, other in combinations(self.inputs, 2)
+            if (rho := self._pairs.get(frozenset((one, other)), 0.0))
+        ]
+        said = f"correlation of the inputs as stated: {', '.join(stated)}"
+        return (Note(None, said),) if stated else ()
 
     def correlations(self) -> Any:
         """Pearson's correlations of the inputs themselves, in their order."""
