@@ -686,6 +686,38 @@ def test_a_plastic_end_in_written_digits_is_answered(kind):
     assert 15 <= warned <= 45
 
 
+def nearly_plastic(more, pivot=None):
+    """Motions after whose contact points still approach by 0.05 m/s times ``more``."""
+    a = col.Vehicle(mass=1600, yaw_inertia=2700, x=-2.3, y=0.2, heading=0.0, vx=16.0)
+    b = col.Vehicle(mass=1250, yaw_inertia=1850, x=0.9, y=-0.6, heading=math.pi / 2, vy=9.0)
+    if pivot is not None:
+        b = b.replace(pivot=pivot, vx=0.0, vy=0.0)
+    contact = {"normal": 0.0, "point": (0.0, 0.1)}
+    end = col.eccentric(a, b, 0.0, impulse_ratio=-0.3, **contact)
+    after = end.a.after.replace(vx=end.a.after.vx + 0.05 * more)
+    return planar(after, end.b.after, closing_speed=16.0, impulse_ratio=-0.3, **contact)
+
+
+@pytest.mark.parametrize("pivot", [None, (2.0, -0.4)])
+def test_motions_that_were_changed_are_stated_wherever_the_answer_is(pivot):
+    said = "the contact points still approach in the motions after as they were given, by up to "
+    said += "0.31 percent of the closing speed: taken as 0, a plastic impact, and the motions after"
+    with pytest.warns(col.OutOfRangeWarning, match="still approach") as caught:
+        found = nearly_plastic(1.0, pivot)
+    assert caught[0].message.fields["approach"] == pytest.approx(0.05)
+    assert [said in sentence for sentence in found.statements].count(True) == 1
+    page = str(col.report(found))
+    assert said.partition(",")[0][4:] in page.replace("\n", " ")
+    assert "still approach" in str(found.summary())
+    again = col.Impact.from_dict(found.to_dict())
+    assert again.statements == found.statements
+    with pytest.warns(col.OutOfRangeWarning, match="still approach"):
+        many = nearly_plastic(np.array([0.0, 0.5, 1.0]), pivot)
+    assert any(sentence.startswith("in some cases " + said) for sentence in many.statements)
+    assert not any("approach" in sentence for sentence in nearly_plastic(0.0, pivot).statements)
+    assert not any("approach" in sentence for sentence in nearly_plastic(-1.0, pivot).statements)
+
+
 def test_bodies_that_go_on_approaching_are_no_plastic_end():
     """Beyond 1 percent of the closing speed it is not what measurement leaves."""
     a, b = (

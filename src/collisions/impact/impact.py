@@ -498,13 +498,14 @@ class Impact(_SpeedsBefore, Frozen, Summarized):
         instant, how much of delta-V that leaves out, as ``left_out`` estimates it, or without the
         tyres of one vehicle, how much these would change; of one that was found with tyres or from
         readings of recorders, that there may be others, and how much the motion during the contact
-        is.
+        is; of one that was found from motions after in which the contact points still approach a
+        little, that these were changed.
         """
-        from .instant import found_from_readings, found_with_tyres, neglected
+        from .instant import found_backwards, neglected
 
         found = neglected(self)
         said = () if found is None else (found.sentence,)
-        return (*said, *found_from_readings(self), *found_with_tyres(self))
+        return *said, *found_backwards(self)
 
     @derived()
     def complete(self) -> Any:

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..kernels.elementwise import turning_velocity
 from ..messages.errors import CollisionsError
 from ..messages.warning import quietly
 from ..quantities.formatting import percent
@@ -47,6 +48,8 @@ LOOKED_AROUND = (
     "origins are looked for from those of an instant without tyres and from motions around them, "
     "as far as the tyres reach, and one that none of these leads to is missed"
 )
+# Of the closing speed: by no more do motions after differ that nothing changed.
+_ROUNDING = 1e-9
 # The reverse solvers that take a duration and tyres.
 TAKE_TYRES = ("planar", "speeds")
 
@@ -157,6 +160,13 @@ def _medians(impact: Impact) -> str:
     return " (medians)" if np.ndim(impact.closing_speed) else ""
 
 
+def found_backwards(impact: Impact) -> tuple[str, ...]:
+    """What has to be said of how an impact was found backwards, beside what an instant leaves
+    out.
+    """
+    return *_motions_changed(impact), *_found_from_readings(impact), *_found_with_tyres(impact)
+
+
 def looked_for(known: Sequence[str]) -> str:
     """How speeds with tyres were looked for, by the names of what was known, of which both EES, or
     both speeds of maximum crush, are one.
@@ -165,7 +175,7 @@ def looked_for(known: Sequence[str]) -> str:
     return LOOKED_ALONG if along else LOOKED_FOR
 
 
-def found_from_readings(impact: Impact) -> tuple[str, ...]:
+def _found_from_readings(impact: Impact) -> tuple[str, ...]:
     """What has to be said of speeds from readings of recorders in a contact that lasts: how they
     were looked for.
     """
@@ -180,7 +190,7 @@ def found_from_readings(impact: Impact) -> tuple[str, ...]:
     return (f"found from readings away from the centre of mass: {LOOKED_FOR_TURNS}",)
 
 
-def found_with_tyres(impact: Impact) -> tuple[str, ...]:
+def _found_with_tyres(impact: Impact) -> tuple[str, ...]:
     """What has to be said of an impact that was found backwards with tyres: how the speeds or
     motions before were looked for, where others may have been missed, and what is left out.
     """
@@ -188,6 +198,38 @@ def found_with_tyres(impact: Impact) -> tuple[str, ...]:
     if origin is None or origin.method not in TAKE_TYRES or not impact.inputs.tyres:
         return ()
     return *_looked_for(origin), *_motion_left_out(impact)
+
+
+def _motions_changed(impact: Impact) -> tuple[str, ...]:
+    """What has to be said of an impact that ``planar`` found from motions after in which the
+    contact points still approach a little: they are not the motions of the answer.
+    """
+    origin, point = impact.reconstruction, impact.point
+    if origin is None or origin.method != "planar" or point is None:
+        return ()
+    (nx, ny), approach = impact.normal, 0.0
+    for sign, label in ((1.0, "a"), (-1.0, "b")):
+        after = getattr(impact, label).after
+        given = {
+            name: origin.given.get(f"{label}_after.{name}", getattr(after, name))
+            for name in ("vx", "vy", "yaw_rate")
+        }
+        if after.pivot is not None:
+            given |= {"vx": 0.0, "vy": 0.0}
+        place = (after.x, after.y) if after.pivot is None else after.pivot
+        turn_x, turn_y = turning_velocity(given["yaw_rate"], *point, *place)
+        approach = approach + sign * (nx * (given["vx"] + turn_x) + ny * (given["vy"] + turn_y))
+    with np.errstate(all="ignore"):
+        share = np.where(np.equal(impact.restitution, 0.0), approach / impact.closing_speed, 0.0)
+    most = float(np.fmax.reduce(share, axis=None, initial=0.0))
+    if most <= _ROUNDING:
+        return ()
+    cases = "" if share.ndim == 0 else "in some cases "
+    return (
+        f"{cases}the contact points still approach in the motions after as they were given, by up "
+        f"to {100.0 * most:.2g} percent of the closing speed: taken as 0, a plastic impact, and "
+        "the motions after changed by as much",
+    )
 
 
 def _motion_left_out(impact: Impact) -> tuple[str, ...]:

@@ -17,7 +17,7 @@ from ..diagnostics.diagnosis import read_limits
 from ..diagnostics.finding import Findings, is_note, letter_of
 from ..diagnostics.moves import Moves
 from ..impact.impact import Impact
-from ..impact.instant import LIMITED, found_with_tyres, neglected
+from ..impact.instant import LIMITED, found_backwards, neglected
 from ..impact.left_out import LeftOutVehicle, left_out, tyres_held, tyres_lacking
 from ..impact.models import BY_NAME
 from ..impact.reconstruction import number_of_text
@@ -489,7 +489,7 @@ def assumptions(
         neglect = None if found is None else neglected(impact, found)
         if neglect is not None:
             sheet.say(as_sentence(neglect.sentence))
-        for sentence in found_with_tyres(impact):
+        for sentence in found_backwards(impact):
             sheet.say(as_sentence(sentence))
     sheet.heading("Assumptions")
     lines = [("Model:", BY_NAME[impact.model].assumptions)]
