@@ -354,6 +354,7 @@ def test_all_speeds_with_the_readings_at_a_place_are_given(case, forward_only):
         assert read(one.a, place, 0.1) == pytest.approx(reading, abs=1e-6)
         (said,) = [text for text in one.statements if "is missed" in text]
         assert said.startswith("found from readings away from the centre of mass")
+        assert "answers are looked for from many turns" in str(col.report(one))
     pairs = [(one.a.before.speed, one.b.before.speed) for one in found]
     assert any(pair == pytest.approx(speeds, abs=1e-4) for pair in pairs)
     assert len(found) == (3 if case == "three roots" else 1)
