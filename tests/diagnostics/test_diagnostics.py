@@ -967,6 +967,30 @@ def test_the_restitution_of_momentum():
     assert of("restitution_negative", balance(normal=None)) == []
 
 
+@pytest.mark.parametrize("other", ["car", "wall"])
+def test_a_plastic_contact_in_time_is_not_incomplete(other):
+    """Its steps leave a little of the closing speed, to either side of 0."""
+    draw, below = random.Random(4), 0
+    for _ in range(20):
+        a = col.Vehicle(
+            mass=1500, yaw_inertia=2600, x=-2.1, y=draw.uniform(-0.6, 0.6), heading=0.0,
+            vx=draw.uniform(8.0, 22.0),
+        )  # fmt: skip
+        b = col.Vehicle(
+            mass=1300, yaw_inertia=2100, x=0.9, y=draw.uniform(-0.6, 0.6), heading=1.2,
+            vx=2.7, vy=draw.uniform(3.0, 9.0),
+        )  # fmt: skip
+        b = col.Vehicle.barrier() if other == "wall" else b
+        contact = {"normal": 0.0, "point": (0.0, 0.0), "friction": 0.5}
+        impact = silent(
+            lambda a=a, b=b: col.time_resolved(a, b, 0.0, **contact, duration=0.1, drag=0.7)
+        )
+        below += impact.separation_speed < 0.0
+        assert impact.complete
+        assert of("incomplete", impact) == []
+    assert below > 3
+
+
 def test_speeds_backwards_and_units_of_momentum():
     """A course the wrong way round, km/h as m/s, slugs as kg, degrees as rad."""
     (finding,) = of("speed_backwards", balance(course_a="180 deg"))

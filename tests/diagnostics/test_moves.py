@@ -165,7 +165,7 @@ def test_each_model_has_what_it_can_be_moved_by():
     other = by_name(impact(duration=0.1, tyres_a=tyres))["tyres"]
     assert other.what == "tyres of B sliding 0.1 s, drag 0.7"
     stuck = by_name(impact(friction=math.inf))["friction"]
-    assert stuck.what == "friction 0.55, not sticking"
+    assert stuck.what == "friction 0.55 in place of an infinite one"
     timed = col.time_resolved(A, B, 0.15, **CONTACT, duration=0.1)
     assert set(by_name(timed)) == {"point", "normal", "restitution", "friction"}
 

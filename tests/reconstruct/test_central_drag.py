@@ -275,6 +275,26 @@ def test_an_instant_that_could_take_drags_says_so():
     assert "collisions.left_out" in head_on.statements[0]
 
 
+def test_a_wall_is_not_asked_for_its_tyres():
+    a = col.Vehicle(mass=1500, yaw_inertia=2600, x=-2.0, y=0.3, heading=0.0, vx=12.0)
+    contact = {"normal": 0.0, "point": (0.0, 0.0), "impulse_ratio": 0.1}
+    after = col.eccentric(a, col.Vehicle.barrier(), 0.2, **contact).a.after
+    found = reconstruct.planar(after, col.Vehicle.barrier(), restitution=0.2, **contact)
+    assert found.statements[0].endswith("give `duration=` and `tyres_a=`")
+
+
+@pytest.mark.slow
+def test_a_report_lists_no_place_that_nobody_gave():
+    """Drags make it an impact of two bodies at places of its own."""
+    found = reconstruct.central(
+        1500.0, 1200.0, va=15.0, vb=0.0, restitution=0.2, duration=0.1, drag_b=0.7
+    )
+    given = str(col.report(found, form="markdown")).split("## Inputs")[1].split("## ")[0]
+    assert "drag of B while the contact lasts" in given
+    for word in ("position", "contact point", "inertia", "friction", "law of restitution"):
+        assert word not in given, word
+
+
 def test_a_barrier_is_not_slowed():
     wall = reconstruct.central(
         1100, np.inf, va=10.0, vb=4.0, restitution=0.1, duration=0.1, drag_a=0.7, drag_b=0.5

@@ -577,7 +577,7 @@ REFUSALS = [
     ("bad_units", col.InputError, {"delta_v_left_a": "3 kg"}, {}, "delta_v_left_a"),
     ("not_finite", col.InputError, {"delta_v_left_a": math.nan}, {}, "delta_v_left_a is NaN"),
     ("one_tangential", col.InputError, {"friction": None}, {}, "friction"),
-    ("undetermined", col.NoSolutionError, {"course_b": 0.1}, {}, "give one of the speeds"),
+    ("parallel_headings", col.NoSolutionError, {"course_b": 0.1}, {}, "give one of the speeds"),
     ("contradictory", col.NoSolutionError, {"delta_v_forward_a": 5.0}, {},
         "fit delta_v_forward_a = 5 m/s and delta_v_left_a = 1 m/s"),
 ]  # fmt: skip

@@ -327,20 +327,29 @@ def _impact(page: Page, impact: Impact) -> None:
     page.table(impact_answers(page, impact))
 
 
+_PLACES = ("yaw_inertia", "x", "y", "heading", "yaw_rate")
+
+
 def impact_inputs(
     impact: Impact,
 ) -> Iterator[tuple[str, str, tuple[str, ...], tuple[float, ...], str]]:
     """The rows of given inputs: A, B or the contact, description, argument, number and kind."""
+    origin = impact.reconstruction
+    # With drags it is worked out as an impact at places that nobody gave.
+    in_line = origin is not None and origin.method == "central"
     for label, vehicle in (("A", impact.a.before), ("B", impact.b.before)):
         for name, (what, kind) in OF_VEHICLE.items():
             value = getattr(vehicle, name)
+            if in_line and name in _PLACES:
+                continue
             if value is not None and not (name == "yaw_rate" and value == 0.0):
                 yield label, what, (name,), (value,), kind
         if vehicle.pivot is not None:
             yield label, "pivot O (x, y)", ("pivot[0]", "pivot[1]"), vehicle.pivot, "length"
     yield "contact", "normal, direction from A into B", ("normal",), (impact.normal_angle,), "angle"
     # With ``solve`` the model taken may leave out some of what decided which was taken.
-    if impact.inputs.point is not None and impact.inputs.model in (*PLACED, "solve"):
+    placed = impact.inputs.model in (*PLACED, "solve") and not in_line
+    if impact.inputs.point is not None and placed:
         yield (
             "contact",
             "contact point (x, y)",
@@ -349,7 +358,6 @@ def impact_inputs(
             "length",
         )
     yield "contact", "restitution e", ("restitution",), (impact.restitution,), "number"
-    origin = impact.reconstruction
     for label, pushed in (("a", impact.inputs.outside_a), ("b", impact.inputs.outside_b)):
         if pushed is not None and any(pushed):
             what, name = f"impulse on {label.upper()} from outside", f"outside_{label}"
@@ -369,7 +377,7 @@ def impact_inputs(
                 (pushed[2],),
                 "angular momentum",
             )
-    if impact.inputs.model != "linear_central":
+    if impact.inputs.model != "linear_central" and not in_line:
         rule = impact.inputs.rule
         yield "contact", RULES[rule].meaning, (rule,), (impact.inputs.rule_value,), "number"
     if impact.inputs.model != "eccentric":

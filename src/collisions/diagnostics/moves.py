@@ -150,7 +150,7 @@ def _of_inputs(case: ImpactCase) -> Iterator[Move]:
         return
     if math.isinf(value):
         typical = INTER_VEHICLE_FRICTION.typical
-        what = f"{_named(rule)} {typical:g}, not sticking"
+        what = f"{_named(rule)} {typical:g} in place of an infinite one"
         yield _solved(impact, rule, what, [{"rule_value": typical}])
         return
     entry = RULES[rule]

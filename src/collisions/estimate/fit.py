@@ -850,6 +850,15 @@ def _agreeing(fits: list[Fit]) -> str:
     return f"They agree on {', '.join(agree)} within a standard error. " if agree else ""
 
 
+def _by_weight(changes: Any, errors: Any) -> list[int]:
+    """Which unknowns move along a direction, in order of how far they do beside their errors: the
+    sentence is about the first.
+    """
+    with np.errstate(all="ignore"):
+        weights = np.nan_to_num(abs(changes) / errors, nan=np.inf)
+    return sorted(np.flatnonzero(changes).tolist(), key=lambda at: -weights[at])
+
+
 def _answer(found: _Candidate) -> Fit:
     """The ``Fit`` of a candidate."""
     inputs, problem, point, determined = (
@@ -893,7 +902,8 @@ def _answer(found: _Candidate) -> Fit:
         p_value=chi_squared_tail(chi_squared, degrees_of_freedom),
         undetermined=tuple(
             Direction(
-                changes={names[j]: float(row[j]) for j in np.flatnonzero(row)}, held_by_prior=held
+                changes={names[j]: float(row[j]) for j in _by_weight(row, found.errors)},
+                held_by_prior=held,
             )
             for held, rows in ((False, determined.unidentified), (True, determined.prior_only))
             for row in rows

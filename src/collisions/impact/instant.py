@@ -105,7 +105,7 @@ def neglected(
     ]
     if not parts:
         return None
-    advice = "give `duration=` and `tyres_a=`, `tyres_b=`"
+    advice = f"give `duration=` and {', '.join(f'`tyres_{label}=`' for label in lacking)}"
     if of_scene:
         advice = "give the contact `duration=` and its vehicles `tyres=`"
     elif origin is not None and origin.method not in TAKE_TYRES:
@@ -113,7 +113,7 @@ def neglected(
         states = impact.a.before, impact.a.after, impact.b.before, impact.b.after
         follows = all(np.nanmin(state.vx) >= 0.0 for state in states)
         advice = (
-            "give `duration=` and `drag_a=`, `drag_b=`"
+            f"give `duration=` and {', '.join(f'`drag_{label}=`' for label in lacking)}"
             if follows
             else "collisions.left_out says more of it"
         )
@@ -217,7 +217,10 @@ def _motions_changed(impact: Impact) -> tuple[str, ...]:
         if after.pivot is not None:
             given |= {"vx": 0.0, "vy": 0.0}
         place = (after.x, after.y) if after.pivot is None else after.pivot
-        turn_x, turn_y = turning_velocity(given["yaw_rate"], *point, *place)
+        # A wall has no place, and does not turn.
+        turn_x, turn_y = (
+            (0.0, 0.0) if place[0] is None else turning_velocity(given["yaw_rate"], *point, *place)
+        )
         approach = approach + sign * (nx * (given["vx"] + turn_x) + ny * (given["vy"] + turn_y))
     with np.errstate(all="ignore"):
         share = np.where(np.equal(impact.restitution, 0.0), approach / impact.closing_speed, 0.0)

@@ -180,7 +180,8 @@ def inputs(
                     else given_as(found, texts.get(what, found))
                 )
                 rows.append((name, what, _with(text, notes.get(f"{of.lower()}.{what}"))))
-    if impact.law is not None and impact.model not in ("linear_central", "time_resolved"):
+    in_line = impact.reconstruction is not None and impact.reconstruction.method == "central"
+    if impact.law is not None and impact.model in ("oblique_central", "eccentric") and not in_line:
         rows.append(("contact", "law of restitution", _with(impact.law.title(), notes.get("law"))))
     if impact.inputs.incomplete:
         rows.append(("contact", "restitution below 0 (incomplete impact)", "allowed"))
