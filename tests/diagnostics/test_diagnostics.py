@@ -967,10 +967,12 @@ def test_the_restitution_of_momentum():
     assert of("restitution_negative", balance(normal=None)) == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("other", ["car", "wall"])
 def test_a_plastic_contact_in_time_is_not_incomplete(other):
     """Its steps leave a little of the closing speed, to either side of 0."""
     draw, below = random.Random(4), 0
+    contact = {"normal": 0.0, "point": (0.0, 0.0), "friction": 0.5, "duration": 0.1, "drag": 0.7}
     for _ in range(20):
         a = col.Vehicle(
             mass=1500, yaw_inertia=2600, x=-2.1, y=draw.uniform(-0.6, 0.6), heading=0.0,
@@ -981,10 +983,7 @@ def test_a_plastic_contact_in_time_is_not_incomplete(other):
             vx=2.7, vy=draw.uniform(3.0, 9.0),
         )  # fmt: skip
         b = col.Vehicle.barrier() if other == "wall" else b
-        contact = {"normal": 0.0, "point": (0.0, 0.0), "friction": 0.5}
-        impact = silent(
-            lambda a=a, b=b: col.time_resolved(a, b, 0.0, **contact, duration=0.1, drag=0.7)
-        )
+        impact = silent(lambda a=a, b=b: col.time_resolved(a, b, 0.0, **contact))
         below += impact.separation_speed < 0.0
         assert impact.complete
         assert of("incomplete", impact) == []

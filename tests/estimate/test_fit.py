@@ -773,6 +773,30 @@ def test_sliding_or_sticking():
 
 
 @pytest.mark.slow
+@pytest.mark.slow
+def test_a_direction_is_told_of_the_unknown_that_moves_most_along_it():
+    """Beside their errors: the speed, which delta-V tells, moves by little with the normal and the
+    point, which nothing tells apart.
+    """
+    a = col.Vehicle(mass=1500, yaw_inertia=2500, x=-2.1, y=0.0, heading=0.0, vx=15.0)
+    b = col.Vehicle(mass=1300, yaw_inertia=2000, x=2.1, y=0.0, heading=0.0, vx=5.0)
+
+    def model(va, turn, aside):
+        impact = col.eccentric(
+            a.replace(vx=va), b, 0.15, normal=turn, point=(0.0, aside), friction=0.5,
+            on_failure="nan",
+        )  # fmt: skip
+        return {"pdof": impact.b.q.pdof, "delta_v": impact.b.q.delta_v}
+
+    unknowns = {"va": Interval("8 m/s", "25 m/s"), "turn": Normal("0 deg", "3 deg")}
+    unknowns |= {"aside": Normal("0 m", "0.1 m")}
+    observed = {"pdof": Normal("-178 deg", "3 deg"), "delta_v": Normal("6 m/s", "0.3 m/s")}
+    found, _ = fitted(model, unknowns, observed)
+    (direction,) = found.undetermined
+    assert direction.unknowns[-1] == "va"
+    assert "a change of turn by +1 together with aside by" in direction.sentence
+
+
 def test_sticking_leaves_friction_undetermined():
     """Evidence of a contact that stuck: friction is named, the rest answered."""
     true = {"speed_a": 15.0, "speed_b": 12.0, "restitution": 0.1}

@@ -698,6 +698,7 @@ def nearly_plastic(more, pivot=None):
     return planar(after, end.b.after, closing_speed=16.0, impulse_ratio=-0.3, **contact)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pivot", [None, (2.0, -0.4)])
 def test_motions_that_were_changed_are_stated_wherever_the_answer_is(pivot):
     said = "the contact points still approach in the motions after as they were given, by up to "

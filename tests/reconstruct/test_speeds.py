@@ -384,7 +384,10 @@ def test_parallel_courses():
     assert caught.value.code == "parallel_headings"
 
 
-@pytest.mark.parametrize("tyres", [{}, {"duration": 0.1, "tyres_a": Tyres(0.7, 0.3, 2.6, 1.5)}])
+TYRES = {"duration": 0.1, "tyres_a": Tyres(0.7, 0.3, 2.6, 1.5)}
+
+
+@pytest.mark.parametrize("tyres", [{}, pytest.param(TYRES, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("more", [{}, {"energy_loss": ...}, {"slid": "bound"}])
 @pytest.mark.parametrize("course_b", [0.0, math.pi])
 def test_parallel_courses_beside_components(tyres, more, course_b):

@@ -307,6 +307,7 @@ def test_what_leaves_open_whether_it_stuck_has_both_answers_with_tyres():
 
 
 @pytest.mark.slow
+@pytest.mark.slow
 def test_a_bound_with_a_car_going_backwards_says_that_it_is_of_such_cars():
     """At walking pace the tyres may explain the components with B backwards."""
     heading, wheels = 1.00438, Tyres(0.7, 0.3, 2.6, 1.5)
@@ -336,6 +337,7 @@ def test_a_bound_with_a_car_going_backwards_says_that_it_is_of_such_cars():
     assert found.b.before.vy < 0.0
 
 
+@pytest.mark.slow
 def test_a_contact_that_slid_with_tyres_has_a_bound_that_the_truth_lies_beyond():
     """Forward answers that slid: each speed is on the side that is said, of the bound."""
     rng, met = random.Random(45), 0

@@ -105,6 +105,7 @@ def test_any_result_of_the_scene_can_be_the_answer(found, run):
         col.report([found, run], answers=["impacts[3].b.delta_v"])
 
 
+@pytest.mark.slow
 def test_notes_can_be_by_paths_of_the_scene(found, run):
     notes = {"Rover.mass": "Weighed", "Seat.rest.x": "Police", "the speed": "As the road allows"}
     page = col.report([found, run], form="markdown", notes=notes)
