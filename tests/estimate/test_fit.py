@@ -607,7 +607,7 @@ def test_friction_that_does_not_act_is_named():
     assert [one.unknowns for one in found.undetermined] == [("friction",)]
     assert (
         found.undetermined[0].sentence
-        == "friction is not determined by the evidence, nor by anything else"
+        == "friction is not determined by the evidence, and no prior settles it"
     )
     assert math.isnan(found.values["friction"])
     assert found.values["speed_a"] == pytest.approx(14.0, abs=1e-6)

@@ -873,6 +873,55 @@ def test_what_an_energy_may_differ_by_beside_a_contact_that_stuck(factor, said, 
     assert found.b.before.speed == pytest.approx(16.0, abs=1e-6)
 
 
+@pytest.mark.parametrize("rule", ["friction", "impulse_ratio"])
+@pytest.mark.parametrize("beside", ["energy_loss", "ees"])
+@pytest.mark.parametrize("more", [{}, {"slid": "bound"}])
+def test_without_friction_an_energy_tells_no_slip(rule, beside, more):
+    """Crashes that differ by a slip alone have the same delta-V and the same energy."""
+    contact = {"normal": 0.1, "point": (0.0, 0.1), rule: 0.0}
+    a = A.replace(x=-2.2, y=0.0, heading=0.0, vx=15.0)
+    b = B.replace(x=0.8, y=-0.3, heading=math.pi / 2, vy=2.0)
+    one = col.eccentric(a, b, 0.1, **contact)
+    faster = a.replace(vx=15.0 + 9.0 * math.tan(0.1))
+    other = col.eccentric(faster, b.replace(vy=11.0), 0.1, **contact)
+    known = {"delta_v_forward_a": one.a.delta_v_forward, "delta_v_left_a": one.a.delta_v_left}
+    known |= dict(zip(("ees_a", "ees_b"), one.ees(0.5), strict=True)) if beside == "ees" else {}
+    known |= {"energy_loss": one.energy_loss} if beside == "energy_loss" else {}
+    assert other.a.delta_v_forward == pytest.approx(one.a.delta_v_forward, rel=1e-12)
+    assert other.a.delta_v_left == pytest.approx(one.a.delta_v_left, rel=1e-12)
+    assert other.energy_loss == pytest.approx(one.energy_loss, rel=1e-12)
+    if rule == "impulse_ratio" and more:
+        return
+    given = {"course_a": 0.0, "course_b": math.pi / 2, "restitution": 0.1, **contact, **more}
+    with pytest.raises(col.NoSolutionError, match=r"^without friction") as no:
+        speeds(a, b, **given, **known)
+    assert no.value.code == "undetermined"
+    if rule == "friction":
+        with pytest.warns(col.CollisionsWarning):
+            found = speeds(a, b, **given | {"friction": np.array([0.0, 0.0, 0.3])}, **known)
+        assert [col.Status(one).label for one in found[0].status[:2]] == ["undetermined"] * 2
+
+
+def test_with_hardly_any_friction_an_energy_leaves_both():
+    """A contact that stuck and one that slid lose the same to four digits."""
+    contact = {"normal": 0.1, "point": (0.0, 0.1), "friction": 1e-6}
+    a = A.replace(x=-2.2, y=0.0, heading=0.0, vx=15.0)
+    b = B.replace(x=0.8, y=-0.3, heading=math.pi / 2, vy=2.0)
+    true = col.eccentric(a, b, 0.1, **contact)
+    given = {"course_a": 0.0, "course_b": math.pi / 2, "restitution": 0.1, **contact}
+    known = {"delta_v_forward_a": true.a.delta_v_forward, "delta_v_left_a": true.a.delta_v_left}
+    with pytest.raises(col.AmbiguousSolutionError) as either:
+        speeds(a, b, **given, **known, energy_loss=true.energy_loss)
+    found = [(one.a.before.speed, one.b.before.speed) for one in either.value.solutions]
+    assert any(pair == pytest.approx((15.0, 2.0), abs=1e-3) for pair in found)
+    # With a hundredth the energy of the slip shows, and decides.
+    contact["friction"] = 0.01
+    true = col.eccentric(a, b, 0.1, **contact)
+    known = {"delta_v_forward_a": true.a.delta_v_forward, "delta_v_left_a": true.a.delta_v_left}
+    (only,) = speeds(a, b, **given | contact, **known, energy_loss=true.energy_loss)
+    assert (only.a.before.speed, only.b.before.speed) == pytest.approx((15.0, 2.0), rel=1e-9)
+
+
 @cache
 def slid_hits(count=25):
     """Random cars that met at an angle and slid far from sticking, with what they met with."""

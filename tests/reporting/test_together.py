@@ -66,6 +66,7 @@ def test_the_answer_has_the_speeds_and_the_ranges_of_the_delta_v(found, run):
 @pytest.mark.slow
 def test_what_was_found_is_marked_among_what_was_given(found, run):
     page = col.report([found, run], form="markdown", units="us")
+    assert "These, and the energy below, are of the run at the mean of part 1." in page
     mean = found["the speed"].mean / MPH
     assert f"| A (Rover) | velocity along x | {mean:.1f} mph, mean of part 1 |" in page
     assert re.search(r"\| contact \| restitution e \| 0\.\d+, mean of part 1 \|", page)
@@ -74,6 +75,11 @@ def test_what_was_found_is_marked_among_what_was_given(found, run):
     other = scene().replace({"the speed": "31 mph"}).run()
     page = col.report([found, other], form="markdown", units="us")
     assert "| A (Rover) | velocity along x | 31.0 mph, set for this run |" in page
+    assert "at the mean of part 1" not in page
+    said = "with the speed and restitution of the contact of Rover and Seat as set for this run"
+    said += ", which is not the mean of part 1."
+    assert f"These, and the energy below, are of the run {said}" in page
+    assert f"The results below are those {said}" in page
 
 
 @pytest.mark.slow

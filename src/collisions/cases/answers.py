@@ -320,7 +320,10 @@ def _variance_shares(output: Any) -> str:
     """
     with suppress(InputError):
         shares = sorted(output.contributions.items(), key=lambda one: -one[1])
-        listed = ", ".join(f"{name} {percent(share)}" for name, share in shares if share >= 0.005)
+        # Errors of sampling may bring one above the whole.
+        listed = ", ".join(
+            f"{name} {percent(min(share, 1.0))}" for name, share in shares if share >= 0.005
+        )
         return f"Variance of {output.name}: {listed}" if listed else ""
     return ""
 

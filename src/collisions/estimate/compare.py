@@ -19,6 +19,7 @@ from ..quantities.refusals import must_be
 from ..quantities.strict_json import strict
 from ..quantities.tables import Cells, Part, Summarized, Summary, as_sentence
 from ..quantities.units import shown
+from ..uncertainty.sampling import TOGETHER
 from .posterior_result import Posterior, notes_of
 
 _SUM_TOL = 1e-9  # of probabilities that were stated
@@ -198,7 +199,8 @@ def compare(
         f"{name}: {note.statement}"
         for name, one in posteriors.items()
         for note in notes_of(one)
-        if note.warning or note.fields.get("cases")  # also of what only some cases are warned of
+        # Also of what only some cases are warned of, and how the priors go together.
+        if note.warning or note.fields.get("cases") or note.code == TOGETHER
     ]
     found = Comparison(
         probability=after,

@@ -220,7 +220,9 @@ class Direction:
             )
             what = f"a change of {what} by +1 together with {moves} (SI)"
         and_so = (
-            "and rests on what was stated before" if self.held_by_prior else "nor by anything else"
+            "and rests on what was stated before"
+            if self.held_by_prior
+            else "and no prior settles it"
         )
         return f"{what} is not determined by the evidence, {and_so}"
 
@@ -589,7 +591,8 @@ def agreement(
     )
     chance = f"a misfit this large or larger has a chance of {text}"
     if p_value >= _WEAK:
-        return Note(None, f"the evidence agrees with itself: {chance}", code=AGREES)
+        whom = "itself and the priors" if apart else "itself"
+        return Note(None, f"the evidence agrees with {whom}: {chance}", code=AGREES)
     if p_value >= CONTRADICTION:
         return Note(
             None,

@@ -578,7 +578,7 @@ def _reason(choice: ModelChoice, system: Numbers = _SI) -> str:
         why = would(fullest - 1) + (
             "" if nearest == math.inf else f"{' over this duration' if timed else ''}{accepted}"
         )
-        if timed and nearest <= tolerance:
+        if nearest <= tolerance:
             why += f", which has to be {_MARGIN:g} times that, as the error is known roughly"
     elif timed:
         why = f"in {_ROUGH} steps it has no answer, so what the others err by is not known"

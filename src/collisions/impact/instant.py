@@ -197,7 +197,17 @@ def _found_with_tyres(impact: Impact) -> tuple[str, ...]:
     origin = impact.reconstruction
     if origin is None or origin.method not in TAKE_TYRES or not impact.inputs.tyres:
         return ()
-    return *_looked_for(origin), *_motion_left_out(impact)
+    return *_looked_for(origin), *_bound_with_tyres(origin), *_motion_left_out(impact)
+
+
+def _bound_with_tyres(origin: Reconstruction) -> tuple[str, ...]:
+    """What has to be said of speeds that are known from one side alone."""
+    if not any(np.any(side) for side in (origin.one_sided or {}).values()):
+        return ()
+    return (
+        "a bound with tyres: with more slip the tyres do otherwise than at this end of the speeds, "
+        "and one that hardly changes from there on may lie a little beyond its bound",
+    )
 
 
 def _motions_changed(impact: Impact) -> tuple[str, ...]:

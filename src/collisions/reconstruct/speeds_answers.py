@@ -552,7 +552,12 @@ def _refusal(
             "repeats the friction, which leaves the slip undetermined; give "
             + ("the speed of the other vehicle" if speed_is_known else "one of the speeds")
         )
-        if scene.rule == FRICTION and not scene.slid:
+        if not scene.bound:
+            text = (
+                f"without friction {names} tell of the closing speed alone, whatever the slip; "
+                "give one of the speeds"
+            )
+        elif scene.rule == FRICTION and not scene.slid:
             text += ", or write `slid='bound'` for the end of the speeds that it may have had"
     elif isinstance(scene, ComponentScene) and (
         scene.stated == "sticking" and abs(scene.shown_ratio()) > scene.bound

@@ -107,14 +107,22 @@ def fit_either(
     fit, are far from its own; but not where the ``least`` that any misses is nothing. With
     ``forward_only`` speeds backwards are none.
     """
+    far = _far_from(stuck, slid, closing, forward_only)
+    either: Any = (misfit <= ACCURACY) & (least > _EXACT) & far
+    return either
+
+
+def _far_from(
+    stuck: Sequence[Any], slid: Sequence[Sequence[Any]], closing: Any, forward_only: bool
+) -> Any:
+    """Whether any pair of speeds of a contact that slid is far from those of one that stuck."""
     far: Any = False
     for pair in slid:
         slowest = np.minimum.reduce(np.broadcast_arrays(*pair, *stuck))
         allowed = slowest >= 0.0 if forward_only else True
         for one, own in zip(pair, stuck, strict=True):
             far = far | (allowed & (abs(one - own) > _BEYOND * closing))
-    either: Any = (misfit <= ACCURACY) & (least > _EXACT) & far
-    return either
+    return far
 
 
 class ComponentScene(Scene):
@@ -230,7 +238,8 @@ class ComponentScene(Scene):
                 # With tyres those are compared in which they have settled.
                 self.either = self._either(regimes, tried, sliding)
             tried += sliding
-            open_slip = np.full((), np.inf)
+            # What is lost by sliding tells the slip, but for a contact without friction.
+            open_slip = np.where(abs(self.bound) > 0.0, np.inf, open_slip)
         elif self.slid:
             tried, edges, sticks, backwards = self._bounded(
                 regimes, tried, edges, sticks, open_slip <= ACCURACY
@@ -241,7 +250,7 @@ class ComponentScene(Scene):
         none = np.isinf(self.misfit)
         self.left_open = open_slip
         self.undetermined = none & (open_slip <= self.most)
-        if self.slid:
+        if self.slid and self.energy is None:
             self.undetermined = self.undetermined | (none & backwards)
         else:
             self.undetermined = self.undetermined | (open_slip <= REDUNDANT)
@@ -666,7 +675,7 @@ class ComponentScene(Scene):
     ) -> Any:
         """Whether one that stuck and one that slid at the friction given both fit the components
         and the energy within the accuracy of recorders, neither exactly, and the latter reaches
-        further within it.
+        further within it; or both exactly, as where hardly any friction takes no energy.
 
         At the ratio that components show one that slid is no other: it begins at the one that
         stuck, and their energy says how far it slid.
@@ -684,6 +693,14 @@ class ComponentScene(Scene):
             for root, misfit, _ in (*sliding, *further)
         ]
         either = fit_either(own_misfit, least, own[:2], slid, own.closing, self.forward_only)
+        # An energy goes as the square of the impulse.
+        most.energy = (1.0 + 2.0 * _EXACT) * self.energy
+        exact = [
+            [np.where(misfit <= _EXACT, speed, np.nan) for speed in root[:2]]
+            for root, misfit, _ in (most._end(regime) for regime in regimes if regime is not STICK)
+        ]
+        far = _far_from(own[:2], exact, own.closing, self.forward_only)
+        either = either | ((own_misfit <= _EXACT) & far)
         return either & np.isfinite(self.bound) & ~self.shows_friction
 
     def loses_more(self) -> Any:

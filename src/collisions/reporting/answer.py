@@ -67,8 +67,8 @@ def answer(
     ]
     if uncertainty is not None:
         lines += warned_of(uncertainty)
-    # On a page of its own the list of all that it states follows the answer.
-    if isinstance(result, (Posterior, Fit)) and not alone:
+    # On a page of its own the list of all that a posterior states follows the answer.
+    if isinstance(result, Fit) or (isinstance(result, Posterior) and not alone):
         lines += warned_of(result, asked or result.found, spread.named)
     origin = result.reconstruction if isinstance(result, Impact) else None
     said = any(finding.code == "not_unique" for finding in told)

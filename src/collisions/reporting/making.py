@@ -394,7 +394,7 @@ def _answer_together(
     picture = None
     if draws and isinstance(sheet, Html):
         caption = (
-            f"From the start to rest, to scale, at the {together.middle}."
+            f"From the start to rest, to scale, {together.where}."
             + " Crosses: where the vehicles were measured at rest." * bool(together.measured())
         )
         picture = drawing.drawn(
@@ -429,7 +429,7 @@ def _ground(sheet: Sheet, together: Together) -> None:
     run = together.run
     vehicles(sheet, run, together.marks())
     sheet.heading("Places of rest")
-    sheet.say(f"These, and the energy below, are of the run at the {together.middle}.")
+    sheet.say(f"These, and the energy below, are of the run {together.where}.")
     sheet.table(rests(sheet, run))
     sheet.heading("Where the kinetic energy went")
     sheet.table(ledger(sheet, run))
@@ -508,7 +508,7 @@ def _at_the_samples(sheet: Sheet, own: _Own) -> None:
         sheet.columns(outputs_part(named, cells(sheet.system.name)))
         sheet.say(
             f"From the {together.samples} samples of part {together.part}, each run through "
-            f"the scene. The results below are those at the {together.middle}."
+            f"the scene. The results below are those {together.where}."
         )
 
 

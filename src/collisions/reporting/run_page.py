@@ -89,6 +89,7 @@ def report_run(run: Run, given: Mapping[str, Any], unusual: Mapping[str, Any]) -
         sections.gain(sheet, impact, impact.energy_loss)
         sections.inputs(sheet, impact, dict.fromkeys(EVIDENCE), {})
         sections.results(sheet, impact, None)
+        sections.assumptions(sheet, impact, given, {}, {})
     sheet.end_parts()
     sheet.heading("Places of rest")
     sheet.table(rests(sheet, run))

@@ -19,13 +19,14 @@ from ..messages.errors import CollisionsError, InputError
 from ..plot.canvas import INK, Axes, Units
 from ..quantities.formatting import UnitSystem
 from ..quantities.units import shown
+from ..quantities.user_text import plain
 from ..reconstruct import Fit, Posterior
 from ..scene.one_run import need_one_run
 from ..scene.results import by_contact, is_result, unit_of_result
 from ..scene.run import Run
 from ..uncertainty.distributions import Normal
 from .scene_words import input_in_words, result_in_words
-from .words import with_article
+from .words import listed, with_article
 
 # What the samples are asked of each impact: the result, and whose it is.
 _RANGED = {
@@ -54,6 +55,20 @@ class Together(NamedTuple):
         """What the numbers of the run are of those found."""
         word = "mean" if isinstance(self.found, Posterior) else "best value"
         return f"{word} of part {self.part}"
+
+    @property
+    def where(self) -> str:
+        """Where among the numbers found the run is, in words: at their middle, or elsewhere."""
+        marks, shared, words = self.marks(), self.run.scene.shared, self.words()
+        apart = [
+            words.get(name, name)
+            for name in self.found.found
+            if any(marks[path] != self.middle for path in shared.get(name, (name,)))
+        ]
+        if not apart:
+            return f"at the {self.middle}"
+        which = listed(map(plain, apart))
+        return f"with {which} as set for this run, which is not the {self.middle}"
 
     @property
     def samples(self) -> int:

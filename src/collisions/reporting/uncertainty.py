@@ -121,7 +121,7 @@ class Spread:
             f"{cases}{seed}. Whatever the stated inputs leave out, these figures leave out too."
         )
         if uncertainty.statements:
-            sheet.stress("What was warned of:")
+            sheet.stress("What belongs with these figures:")
             sheet.listed([plain(as_sentence(sentence)) for sentence in uncertainty.statements])
 
     def _check(self, sheet: Sheet, name: str, output: Output) -> None:

@@ -38,6 +38,8 @@ _FIRST_SHOWN = 1024  # with a progress report: a slow model soon has one, and ca
 _NODES = 64
 _STEPS = 1024  # equal shares of probability instead, where a quantile function has steps
 _ROUNDING = 64.0 * float(np.finfo(np.float64).eps)  # of what a model works out
+# Of statements of how inputs go together.
+TOGETHER = "inputs_together"
 _PIVOT_TOL = 1e-12  # of the correlation matrix, which has ones on its diagonal
 
 
@@ -128,14 +130,19 @@ class Joint:
 
     @property
     def notes(self) -> tuple[Note, ...]:
-        """The correlations that were stated: without them nobody gets the same range again."""
+        """How the inputs go together as stated: without it nobody gets the same range again."""
         stated = [
             f"{one} and {other} {rho:g}"
             for one, other in combinations(self.inputs, 2)
             if (rho := self._pairs.get(frozenset((one, other)), 0.0))
         ]
-        said = f"correlation of the inputs as stated: {', '.join(stated)}"
-        return (Note(None, said),) if stated else ()
+        said = [f"correlation of the inputs as stated: {', '.join(stated)}"] if stated else []
+        said += (
+            f"joint samples, which keep the rows in which they were given: {', '.join(group)}"
+            for group in self.rows
+            if group[0] in self._columns and len(group) > 1
+        )
+        return tuple(Note(None, one, code=TOGETHER) for one in said)
 
     def correlations(self) -> Any:
         """Pearson's correlations of the inputs themselves, in their order."""
