@@ -1,7 +1,9 @@
 """A report of what was found of a scene together with a run of that scene."""
 
+import pickle
 import re
 import warnings
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,6 +12,7 @@ import collisions as col
 from collisions import reconstruct
 from collisions.reporting import options, replay
 from collisions.scene import Contact, Mover, Scene
+from collisions.scene.same import differs_at
 from collisions.uncertainty import Interval, Uniform, propagate
 
 MPH = 0.44704
@@ -28,6 +31,7 @@ def scene(name="Rover", outline=None, mass=1500.0):
 
 
 UNKNOWN = {"the speed": Uniform("10 mph", "60 mph"), "contacts[0].restitution": Uniform(0.0, 0.3)}
+UNKNOWN_E = "contacts[0].restitution"
 # Half and some of the speed, and half less some: 7.4 and 6 m/s, that is 4.6 and 3.7 m to rest.
 SEEN = {
     "Seat.rest.x": ("15.3 ft", "1 ft"),
@@ -154,9 +158,56 @@ def test_a_heading_of_rest_has_no_whole_turns(found):
     spun = scene().replace({"Rover.yaw_rate": 15.0, "the speed": found["the speed"].mean}).run()
     turned = np.degrees(spun.rest["Rover"].heading)
     assert turned > 360.0
-    page = col.report([found, spun], form="markdown", units="us")
+    # As of a model that is a function, of which nothing says that it was not this scene.
+    page = col.report([replace(found, _scene=None), spun], form="markdown", units="us")
     (shown,) = re.findall(r"\| Rover \| heading at rest \| (-?[\d.]+)°", page)
     assert float(shown) == pytest.approx((turned + 180.0) % 360.0 - 180.0, abs=0.06)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("changes", "path"),
+    [
+        ({"Seat.drag": 0.7}, "Seat.drag"),
+        ({"contacts[0].friction": 0.6}, r"contacts\[0\].friction"),
+        ({"Rover.vy": "1 mph"}, "Rover.vy"),
+        ({"contacts[0].normal": "1 deg"}, r"contacts\[0\].normal"),
+    ],
+)
+def test_a_run_of_a_scene_in_which_more_was_changed_is_refused(found, changes, path):
+    """The ranges would be worked out in a scene that the evidence is not of."""
+    given = {name: found[name].mean for name in UNKNOWN}
+    kept = scene().replace(given).run()
+    fitted = reconstruct.fit(
+        scene(), {"the speed": Interval("10 mph", "60 mph"), UNKNOWN_E: Interval(0.0, 0.3)}, SEEN
+    )
+    for one in (found, pickle.loads(pickle.dumps(found)), fitted):
+        assert "Places of rest" in col.report([one, kept], form="markdown")
+        with pytest.raises(col.InputError, match=f"run of another scene: {path}.* differs") as no:
+            col.report([one, scene().replace({**given, **changes}).run()])
+        assert no.value.code == "bad_combination"
+
+
+@pytest.mark.slow
+def test_what_is_no_number_of_a_scene_is_compared_too():
+    whole = scene(outline=(4.5, 1.8))
+    start = [*whole.contacts]
+    for other in (
+        scene(outline=(4.6, 1.8)),
+        Scene(movers=whole.movers, contacts=start, surfaces=[([(9, 9), (10, 9), (9, 10)], 0.5)]),
+        Scene(movers=whole.movers, contacts=start * 2),
+        Scene(movers=whole.movers, contacts=[start[0].replace(model="solve", tolerance=1.0)]),
+        Scene(movers=whole.movers, contacts=[start[0].replace(law="stronge")]),
+    ):
+        assert differs_at(whole, other, ["Rover.vx"])
+        assert differs_at(other, whole, ["Rover.vx"])
+    assert not differs_at(whole, scene(outline=(4.5, 1.8)), UNKNOWN)
+    assert not differs_at(whole, scene(), UNKNOWN)
+    turned = whole.replace({"contacts[0].normal": 0.3})
+    assert not differs_at(whole, turned, ["contacts[0].normal", *UNKNOWN])
+    faster = scene().replace({"Rover.vy": 3.0, "the speed": 1.0})
+    assert not differs_at(scene(), faster, ["Rover.speed", "Rover.course"])
+    assert differs_at(scene(), faster, ["the speed"]) == "Rover.vy"
 
 
 def test_a_report_with_what_was_found_cannot_be_made_again_from_it(found, run):
@@ -177,7 +228,9 @@ def test_impacts_of_a_run_are_counted_and_what_does_not_vary_is_left_out(found):
     whole = Scene(
         movers={**one.movers, "Third": wall}, contacts=[hit, again], shared=one.shared
     ).replace({name: found[name].mean for name in UNKNOWN})
-    page = col.report([found, whole.run()], form="markdown", figures=False)
+    # As of a model that is a function, of which nothing says that it was not this scene.
+    of_function = replace(found, _scene=None)
+    page = col.report([of_function, whole.run()], form="markdown", figures=False)
     assert "delta-V of the Seat, impact 2" in box(page)
     assert "\n## 2. Impact 1 of A (Rover) and B (Seat), at 0.00 s\n" in page
     assert "\n## 3. Impact 2 of A (Seat) and B (Third), at " in page

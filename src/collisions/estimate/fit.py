@@ -21,7 +21,7 @@ from ..quantities.units import is_quantity
 from ..uncertainty.distribution import notes_of_inputs, read_alike
 from ..uncertainty.distributions import Distribution, Interval, Normal, Uniform
 from ..uncertainty.finer import FinerModel
-from ..uncertainty.model import AnyModel, Model, function_of, range_hint
+from ..uncertainty.model import AnyModel, Model, function_of, range_hint, scene_among
 from ..uncertainty.normal import score_of_coverage
 from ..uncertainty.turns import folded
 from .evidence import (
@@ -247,7 +247,7 @@ def fit(
         calls = {"model": searched.cases}
         if dearer is not None:
             calls["finer"] = inputs.model.cases
-        found = replace(found, calls=calls)
+        found = replace(found, calls=calls, _scene=scene_among(finer, model))
     warn_of(notes_of(found))
     return found
 

@@ -295,6 +295,8 @@ class Fit(SpeedsFound, Shown):
     others: tuple[Fit, ...] = ()
     refuses_nearby: bool = False
     model_notes: tuple[Note, ...] = ()
+    # The scene that it is of, where the model was one.
+    _scene: Any = None
 
     _title = "Fit to evidence"
 

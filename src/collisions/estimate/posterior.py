@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 import secrets
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -22,7 +23,7 @@ from ..quantities.units import Input
 from ..uncertainty.distribution import notes_of_inputs
 from ..uncertainty.distributions import Distribution
 from ..uncertainty.finer import FinerModel
-from ..uncertainty.model import AnyModel, Model, function_of, range_hint, units_taken
+from ..uncertainty.model import AnyModel, Model, function_of, range_hint, scene_among, units_taken
 from ..uncertainty.propagation import check_options
 from ..uncertainty.result import unanswered_notes, wrap_notes, wraps_of
 from ..uncertainty.sampling import Correlation, Joint
@@ -205,7 +206,7 @@ def posterior(
         if finer is not None:
             problem.finer = FinerModel(function_of(finer, priors, seen, "observed"), {})
             problem.finer.check_inputs(priors, "unknowns", "bad_model")
-        return problem.answered_by(*given)
+        return replace(problem.answered_by(*given), _scene=scene_among(finer, model))
     if finer is not None:
         raise InputError(
             "give `finer=` or `tolerance=`, which takes a level of the scene and a coarser one "
@@ -219,11 +220,12 @@ def posterior(
         problem = _Problem(Model(chosen.below, {}), joint, rows, chosen.notes)
         problem.finer = FinerModel(whole, {})
         try:
-            return problem.answered_by(*given)
+            return replace(problem.answered_by(*given), _scene=model)
         except NoSolutionError as error:
             if error.code != "too_far":
                 raise
-    return _Problem(Model(whole, {}), joint, rows, chosen.notes).answered_by(*given)
+    found = _Problem(Model(whole, {}), joint, rows, chosen.notes).answered_by(*given)
+    return replace(found, _scene=model)
 
 
 def _prior(label: str, given: Any) -> Distribution:

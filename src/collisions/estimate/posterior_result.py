@@ -168,6 +168,8 @@ class Posterior(SpeedsFound, Summarized):
     model_notes: tuple[Note, ...] = ()
     results: dict[str, PosteriorOutput] = field(default_factory=dict)
     results_from: dict[str, dict[str, str]] = field(default_factory=dict)
+    # The scene that it is of, where the model was one.
+    _scene: Any = None
 
     @property
     def _outputs(self) -> dict[str, PosteriorOutput]:

@@ -24,6 +24,7 @@ from ..reconstruct import Fit, Posterior
 from ..scene.one_run import need_one_run
 from ..scene.results import by_contact, is_result, unit_of_result
 from ..scene.run import Run
+from ..scene.same import differs_at
 from ..uncertainty.distributions import Normal
 from .scene_words import input_in_words, result_in_words
 from .words import listed, with_article
@@ -296,6 +297,16 @@ def _check_same_scene(found: Posterior | Fit, run: Run) -> None:
             f"impact has a {kind} with {shown(strange[0])}, which the scene of its run does not "
             f"have; give a run of the scene that {kind} was given, such as "
             "`scene.replace({...}).run()`",
+            code="bad_combination",
+            argument="impact",
+        )
+    # Of a model that is a function of the caller's nothing else is known.
+    if found._scene is not None and (path := differs_at(found._scene, run.scene, found.found)):
+        kind = type(found).__name__.lower()
+        raise InputError(
+            f"impact has a {kind} and a run of another scene: {path} differs, which that {kind} "
+            f"did not find; give a run of the scene that it was given, such as "
+            "`scene.replace({...}).run()` with the unknowns alone",
             code="bad_combination",
             argument="impact",
         )

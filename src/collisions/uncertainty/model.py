@@ -185,6 +185,14 @@ class Model:
         return found
 
 
+def scene_among(*models: Any) -> Any:
+    """The first of some models, if it is one with many inputs and outputs by name, such as a
+    ``Scene``; None if it is a function.
+    """
+    first = next(one for one in models if one is not None)
+    return first if hasattr(first, "as_model") else None
+
+
 def function_of(model: Any, names: Iterable[str], outputs: Any, argument: str) -> Any:
     """The function of a model that has many inputs and outputs by name, such as a ``Scene``, for
     some of them; any other model as it is.
@@ -192,7 +200,7 @@ def function_of(model: Any, names: Iterable[str], outputs: Any, argument: str) -
     Such a model has ``as_model(names, outputs)``; it works out what is asked for alone, so the
     outputs have to be named.
     """
-    if not hasattr(model, "as_model"):
+    if scene_among(model) is None:
         if outputs is not None and argument == "outputs":
             raise InputError(
                 "outputs names results of a Scene, and model is a function, which returns its own; "
