@@ -430,7 +430,8 @@ def test_joint_samples_as_priors_go_on():
     assert result["s"].mean == pytest.approx(first["s"].mean, abs=0.01)
     # Var(s) of the posterior is 1/(1/2 + 4).
     assert result["s"].std == pytest.approx(math.sqrt(1.0 / 4.5), rel=0.05)
-    assert result.statements == ()
+    together = "joint samples, which keep the rows in which they were given: "
+    assert result.statements == (together + ", ".join(first.inputs()),)
 
 
 @pytest.mark.slow

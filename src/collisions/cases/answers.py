@@ -154,14 +154,11 @@ class Answers:
         """The results with their findings, and the ranges with what they come from."""
         found: list[Any] = []
         system = self._units(units)
-        looked_at = {
-            name: value for name, value in self.case.report.items() if name in parameters(diagnose)
-        }
         for number, result in enumerate(self.results, 1):
             found += [f"Answer {number} of {len(self.results)}"] if len(self.results) > 1 else []
             parts = [result]
-            if isinstance(result, (Impact, MomentumSolution, Run)):
-                parts.append(self._made(diagnose, {**looked_at, "impact": result, "units": system}))
+            if (looked := self._looked_at(result, system)) is not None:
+                parts.append(looked)
             found += [self._made(part.summary, {"units": system}) for part in parts]
         if self.propagation is not None:
             found.insert(
@@ -186,7 +183,30 @@ class Answers:
             if self.propagation is None
             else self._made(self.propagation.to_dict, {}, "propagate")
         )
-        return {"results": results, "uncertainty": ranges, "warnings": self.warnings}
+        return {
+            "results": results,
+            "statements": [list(getattr(result, "statements", ())) for result in self.results],
+            "findings": [
+                []
+                if (looked := self._looked_at(result, None)) is None
+                else looked.to_dict()["findings"]
+                for result in self.results
+            ],
+            "uncertainty": ranges,
+            "warnings": self.warnings,
+        }
+
+    def _looked_at(self, result: Any, units: Any) -> Any:
+        """What ``diagnose`` finds in a result, as the file asks for it; None for one that it does
+        not take.
+        """
+        if not isinstance(result, (Impact, MomentumSolution, Run)):
+            return None
+        given = {
+            name: value for name, value in self.case.report.items() if name in parameters(diagnose)
+        }
+        given |= {} if units is None else {"units": units}
+        return self._made(diagnose, {**given, "impact": result}, "report")
 
     def _units(self, units: str | None) -> Any:
         given = {"units": units} if units else self.case.report

@@ -844,7 +844,11 @@ class ComponentScene(Scene):
                     abs(part * momentum)
                     for part, momentum in zip(self._of_friction(), self._momenta, strict=True)
                 )
-            found.append(self._judged(STICK, speeds, moved, False))
+            root, misfit, left = self._judged(STICK, speeds, moved, False)
+            # Small errors leave the answer there; greater ones move it on as one that slid.
+            slid, _, _ = self._solved(sign * self.bound)
+            root = root._replace(condition=np.fmax(root.condition, slid.condition))
+            found.append((root, misfit, left))
         return found
 
     def _judged(

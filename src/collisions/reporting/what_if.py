@@ -29,7 +29,7 @@ from ..quantities.document import Document
 from ..quantities.formatting import SI_UNITS, UnitSystem, decimals_of, in_words, typeset
 from ..quantities.printed_tables import html_row
 from ..quantities.reading import OUTSIDE_UNITS, ArgumentReader, mixed_units, need_one_case
-from ..quantities.tables import Cells, cells, given_texts, said
+from ..quantities.tables import Cells, as_sentence, cells, given_texts, said
 from ..quantities.units import Input, Texts, has_unit, shown
 from ..quantities.user_text import plain
 from ..vehicle.outlines import read_outline
@@ -582,13 +582,14 @@ def _written(
         for what, texts in _fixed(impact, sliders, system)
     ]
     text = _PAGE.read_text(encoding="utf-8")
-    one_sided = "".join(f"<p>{escape(typeset(one))}</p>" for one in impact._bounds(system))
+    stated = (*impact._bounds(system), *(plain(as_sentence(one)) for one in impact.statements))
+    said = "".join(f"<p>{escape(typeset(one))}</p>" for one in stated)
     heading = (
         "As given, not moved" if impact.reconstruction is None else "Given or found, not moved"
     )
     for name, part in {
         "evidence": _table("Evidence", ("observed", "reading", "now"), seen),
-        "fixed": one_sided + _table(heading, ("input", names["a"], names["b"]), not_moved, _SIDES),
+        "fixed": said + _table(heading, ("input", names["a"], names["b"]), not_moved, _SIDES),
         "title": escape(f"What if: {names['a']} and {names['b']}"),
         "model": escape(f"{BY_NAME[impact.model].assumptions}{_chosen(impact, system)}"),
         "inputs": "\n".join(inputs),
