@@ -64,7 +64,7 @@ def answers(printed, cases):
                 file.as_uri(),
             ]
         done = subprocess.run(
-            command, capture_output=True, text=True, encoding="utf-8", check=True, timeout=120
+            command, capture_output=True, text=True, encoding="utf-8", check=True, timeout=1200
         )
     found = (
         done.stdout
@@ -157,7 +157,7 @@ def moved(page, *events):
             capture_output=True,
             text=True,
             check=False,
-            timeout=120,
+            timeout=1200,
             encoding="utf-8",
         )
     assert done.returncode == 0, done.stderr

@@ -26,7 +26,7 @@ def test_a_note_runs_and_says_what_it_found(note, tmp_path):
         capture_output=True,
         text=True,
         encoding="utf-8",
-        timeout=120,
+        timeout=1200,
         check=False,
     )
     assert done.returncode == 0, done.stderr

@@ -82,7 +82,7 @@ def test_a_quick_run_agrees_and_the_page_can_be_drawn(scripts, committed, tmp_pa
         [sys.executable, str(script), "--quick", "--json", str(path)],
         check=True,
         capture_output=True,
-        timeout=300,
+        timeout=1200,
     )
     quick = json.loads(path.read_text("utf-8"))
     for name, row in quick["routes"].items():

@@ -26,7 +26,7 @@ def run(script, cwd):
         capture_output=True,
         text=True,
         encoding="utf-8",
-        timeout=120,
+        timeout=1200,
         check=False,
     )
 

@@ -31,7 +31,7 @@ def test_a_quick_run_has_the_columns_of_the_committed_file(committed, script, tm
     path = tmp_path / "finer.json"
     command = [sys.executable, str(ROOT / "benchmarks" / "finer.py")]
     subprocess.run(
-        [*command, "--quick", "--json", str(path)], check=True, capture_output=True, timeout=300
+        [*command, "--quick", "--json", str(path)], check=True, capture_output=True, timeout=1200
     )
     quick = json.loads(path.read_text(encoding="utf-8"))
     of_committed = {(row["study"], row["model"]): set(row) for row in committed["rows"]}

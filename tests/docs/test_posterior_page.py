@@ -46,7 +46,7 @@ def test_a_quick_run_has_the_rows_of_the_committed_file(committed, script, tmp_p
         "--processes",
         "1",
     ]
-    subprocess.run(command, check=True, capture_output=True, timeout=300)
+    subprocess.run(command, check=True, capture_output=True, timeout=1200)
     quick = json.loads(path.read_text(encoding="utf-8"))
     for found in (quick, committed):
         assert [(scene["key"], list(scene["unknowns"])) for scene in found["scenes"]] == [

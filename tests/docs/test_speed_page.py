@@ -52,7 +52,7 @@ def quick(tmp_path_factory):
         [sys.executable, str(script), "--quick", "--json", str(path)],
         check=True,
         capture_output=True,
-        timeout=120,
+        timeout=1200,
     )
     return tuple(
         json.loads(file.read_text(encoding="utf-8"))

@@ -53,7 +53,7 @@ def quick(tmp_path_factory):
         [sys.executable, str(script), "--quick", "--json", str(path)],
         check=True,
         capture_output=True,
-        timeout=120,
+        timeout=1200,
     )
     return json.loads(path.read_text(encoding="utf-8"))
 

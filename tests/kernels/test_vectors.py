@@ -256,7 +256,7 @@ def test_the_file_is_what_the_script_writes(tmp_path):
         [sys.executable, str(VECTORS / "make.py"), str(target)],
         env=environment,
         check=True,
-        timeout=300,
+        timeout=1200,
     )
     assert target.read_text(encoding="utf-8") == FILE.read_text(encoding="utf-8")
 
@@ -311,7 +311,7 @@ def ran(command, **environment):
         capture_output=True,
         text=True,
         encoding="utf-8",
-        timeout=120,
+        timeout=1200,
         check=False,
         env={**os.environ, **environment},
     )

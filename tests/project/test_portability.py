@@ -144,7 +144,7 @@ def run(command, folder, settings):
     }
     given |= {"PYTHONPATH": library, "MPLBACKEND": "agg", **settings}
     done = subprocess.run(
-        [sys.executable, *command], cwd=folder, env=given, capture_output=True, timeout=120
+        [sys.executable, *command], cwd=folder, env=given, capture_output=True, timeout=1200
     )
     assert done.returncode == 0, done.stderr.decode(errors="replace")
     return done.stdout

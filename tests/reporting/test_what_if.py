@@ -817,7 +817,7 @@ KeyboardEvent("keydown", { key, bubbles: true, ...more }));
         file.as_uri(),
     ]
     page = subprocess.run(
-        command, capture_output=True, text=True, encoding="utf-8", check=True, timeout=120
+        command, capture_output=True, text=True, encoding="utf-8", check=True, timeout=1200
     ).stdout
     impact = col.eccentric(
         A.replace(vx="70 km/h"), B, 0.1, friction=0.09, normal="-20 deg", point=(0.0, 0.0)
