@@ -312,6 +312,7 @@ def test_texts_that_are_refused(text):
     assert line.startswith("linear_central.restitution: ")
 
 
+@pytest.mark.slow
 def test_the_nominal_case_has_what_was_written():
     """A text keeps its unit beside its error, and the middle stands for a range."""
     impact = solved(
@@ -877,6 +878,7 @@ def test_new_prints_a_case_that_runs(tmp_path, capsys):
     assert max(map(len, text.splitlines())) < 80
 
 
+@pytest.mark.slow
 def test_the_schema_is_that_of_the_functions(capsys):
     """Every argument, every solver; what it refuses is refused, and the examples pass."""
     jsonschema = pytest.importorskip("jsonschema")
@@ -1124,6 +1126,7 @@ def test_the_page_says_which_solver_takes_vehicles():
     assert all(f"`{name}`" in row for name in none | others)
 
 
+@pytest.mark.slow
 def test_notes_of_the_file_stand_beside_what_it_states():
     """Both, of the same input and in paragraphs; what the page has no row for is a
     paragraph too.
@@ -1224,6 +1227,7 @@ def test_a_key_that_stops(tmp_path, capsys, monkeypatch):
     assert run(capsys, file) == (130, "", "stopped; nothing more was written\n")
 
 
+@pytest.mark.slow
 def test_new_has_the_units_that_are_asked_for(tmp_path, capsys):
     """In US units no metric one, in the same tables with the same keys; other options
     are refused.
@@ -1352,6 +1356,7 @@ def test_a_range_without_units_is_refused_where_a_unit_is_needed():
     assert one.nominal == "0.55"
 
 
+@pytest.mark.slow
 def test_a_slider_for_what_an_impact_leaves_as_it_was(tmp_path, capsys):
     """The mass of [a_after] is that before; its speed is not."""
     impact = solved(ECCENTRIC)

@@ -162,6 +162,7 @@ def test_an_area_and_a_slope_that_are_not_known_exactly() -> None:
     assert "\nslope of the ground along x, y: Stated of both, in order: 1 to 2 %" in notes
 
 
+@pytest.mark.slow
 def test_without_outputs_delta_v_and_places_of_rest_are_asked_for() -> None:
     text = ROW.replace("restitution = 0.1", 'restitution = "0.05 .. 0.2"')
     found = answers(read_text((text + "[propagate]\nsamples = 64\n").encode()))
@@ -340,6 +341,7 @@ def test_the_command_plays_a_scene(tmp_path: Path, capsys: pytest.CaptureFixture
     assert "--scene goes with 'new'" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_json_of_a_scene_is_the_record_of_its_report(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -115,6 +115,7 @@ def test_a_wrong_answer_is_not_explained(name, field, form):
     assert (str(again), again.fields) == (str(error), error.fields)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("field", ["tyre_impulse_x_a", "tyre_moment_b"])
 def test_an_answer_of_what_is_not_known_is_not_explained(field):
     """Nor does a diagnosis take it for rounding."""
@@ -315,6 +316,7 @@ def test_what_is_0_in_print_is_0():
     assert math.isnan(page._share_apart(none, beyond / beyond, "number"))
 
 
+@pytest.mark.slow
 def test_a_divisor_that_is_all_rounding_is_no_contradiction():
     """Slip of 1e57 times the closing speed: where the ratio stops it, what it leaves of the
     resistance to the normal impulse is the rounding of its terms. The page says that it cancels.

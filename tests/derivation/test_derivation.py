@@ -870,6 +870,7 @@ def test_reverse_problems_say_what_was_known_and_how_well(name, said):
     assert answer(text, "A", "velocity before, along x") == f"{impact.a.before.vx + 0.0:.2f} m/s"
 
 
+@pytest.mark.slow
 def test_energy_of_both_ees_is_that_of_the_speeds():
     """Known as 1500 kg at 4 m/s and 1300 kg at 5 m/s: 12000 J and 16250 J."""
     for name in ("ees", "max_crush_speed"):
@@ -935,6 +936,7 @@ def test_markdown_can_be_rendered(name):
         assert len(re.findall(r"(?<!\\)\|", row)) == 4, row
 
 
+@pytest.mark.slow
 def test_markdown_and_text_have_the_same_numbers():
     """One derivation, two ways to print it."""
     for impact in (example_2(), example_3(), crossroads()):
@@ -962,6 +964,7 @@ def test_the_same_for_the_same():
     assert explain(impact, units="us", form="text") == explain(impact, units="us", form="text")
 
 
+@pytest.mark.slow
 def test_answers_are_rounded_as_documented():
     """0.1 km/h, 0.1 mph, 0.01 m/s; 1 degree, 0.01 rad, a second too; three figures of an energy;
     each against pint's own conversion.
@@ -987,6 +990,7 @@ def test_answers_are_rounded_as_documented():
         assert loss == float(f"{impact.q.energy_loss.m_as(energy):.2e}")
 
 
+@pytest.mark.slow
 def test_us_conversions_are_listed():
     """1 mph is 22/15 ft/s, and the pound of mass 0.45359237 kg."""
     text = explain(crossroads(), form="text", units="us")
@@ -1183,6 +1187,7 @@ def test_an_interval_among_the_inputs_leaves_no_deviation(method, restitution, h
     assert 96e3 <= high <= 100e3
 
 
+@pytest.mark.slow
 def test_a_direction_stands_on_the_turn_of_its_range():
     """Struck from behind, 0.01 degrees to the other side of straight behind than the middle of the
     range that goes on beyond 180 degrees; and the hour of the clock is beside it.
@@ -1386,6 +1391,7 @@ def test_extremes_are_written_down_without_a_crash():
     assert said > 10
 
 
+@pytest.mark.slow
 def test_speeds_of_momentum_are_solved_for():
     """Each unknown by itself: a textbook right angle, m_A v_A = (m_A + m_B) v' sin 40, and with the
     vehicles leaving as one.
@@ -1518,6 +1524,7 @@ def test_a_kinetic_energy_that_is_not_known_is_no_check():
     assert "T_A" not in text
 
 
+@pytest.mark.slow
 def test_components_of_the_normal_are_introduced():
     """Before they are first used, from the direction given; nothing is needed where the normal is
     the x axis.
@@ -1568,6 +1575,7 @@ def test_figures_are_as_the_notes_say():
     assert "may differ" not in notes
 
 
+@pytest.mark.slow
 def test_other_answers_are_named():
     """A delta-V and an energy that two pairs of speeds give: each of them says that there is
     another; a single one does not.
@@ -1893,6 +1901,7 @@ def test_a_deviation_as_large_as_floats_can_be():
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("sticking_slip", "line"),
     [
@@ -1917,6 +1926,7 @@ def test_a_third_law_is_explained_by_its_own_slip(sticking_slip, line, monkeypat
         assert check_lines(text) >= 5
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("value", [0.0, 0.7])
 @pytest.mark.parametrize("friction", [0.1, 5.0])
 def test_a_fourth_rule_is_not_explained_as_friction(friction, value, monkeypatch, equations):
@@ -1951,6 +1961,7 @@ def crossing(**changes):
     return reconstruct.momentum("3400 lb", "2900 lb", **(given | changes))
 
 
+@pytest.mark.slow
 def test_the_units_are_those_of_the_inputs():
     """As in a summary and a report; with a system named, those, and without any unit SI."""
     us = explain(crossing(), form="text")
@@ -2023,6 +2034,7 @@ def test_a_body_that_is_all_but_fixed_is_explained(mass):
         assert "Common velocity" in explain(impact)
 
 
+@pytest.mark.slow
 def test_what_tyres_do_is_told_apart_from_an_impulse_from_outside():
     """The work in the balance is that of both, and the answers have each by its own name."""
     wheels = col.travel.Tyres(0.7, [1, 0, 0.2, 0.1], 2.7, 1.5)

@@ -49,6 +49,7 @@ def test_the_ledger_adds_up_as_it_is_printed() -> None:
     assert float(re.search(r"([\d.e-]+) percent", ledger)[1]) < 0.1
 
 
+@pytest.mark.slow
 def test_a_vehicle_at_rest_without_a_heading_takes_no_energy(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

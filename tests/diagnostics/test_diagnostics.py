@@ -527,6 +527,7 @@ def test_the_tangential_impulse_adds_energy():
     )
 
 
+@pytest.mark.slow
 def test_the_lever_of_the_force_that_the_damage_shows():
     """A force from 45 degrees to the right on a front left corner turns it left; the impulse turned
     it right.
@@ -1645,6 +1646,7 @@ def test_extreme_scenes_are_diagnosed_too(family):
 # Outlines
 
 
+@pytest.mark.slow
 def test_outlines_may_be_given_in_any_form():
     """Length and width, with the centre of mass off the middle, or corners either way round; units,
     pint, numpy.

@@ -154,6 +154,7 @@ def test_the_largest_is_first():
     assert shares == sorted(shares, reverse=True)
 
 
+@pytest.mark.slow
 def test_each_model_has_what_it_can_be_moved_by():
     line = col.linear_central(col.Vehicle(mass=1500.0, vx=10.0), col.Vehicle(mass=1200.0), 0.95)
     assert set(by_name(line)) == {"restitution", "tyres"}
@@ -170,6 +171,7 @@ def test_each_model_has_what_it_can_be_moved_by():
     assert set(by_name(timed)) == {"point", "normal", "restitution", "friction"}
 
 
+@pytest.mark.slow
 def test_a_contact_in_time_is_not_moved_below_a_restitution_of_0():
     """Nor where impulses may be incomplete, of which ``solve`` may take none."""
     options = {"duration": 0.1, "drag": 0.7, "tolerance": "0.01 m/s", "incomplete": True}

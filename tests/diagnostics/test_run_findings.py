@@ -16,6 +16,7 @@ from collisions.travel import Tyres
 from crashes import three_cars
 
 
+@pytest.mark.slow
 def test_each_impact_has_its_own_findings_with_its_number_and_time() -> None:
     run = three_cars()
     found = col.diagnose(run, units="us")
@@ -137,6 +138,7 @@ def test_what_would_move_each_impact_is_that_of_the_impact() -> None:
     )
 
 
+@pytest.mark.slow
 def test_movers_called_by_the_letters_of_the_other_are_told_apart() -> None:
     """A mover named B that is the first of its contact is "A (named B)", and findings of a run
     have no letters of their own.

@@ -1284,6 +1284,7 @@ def test_an_observed_restitution_leaves_its_range_by_more_than_rounding(e, says)
     assert found == ({(RANGE, "observed_restitution")} if says else set())
 
 
+@pytest.mark.slow
 def test_a_lever_is_rounding_up_to_a_tenth_of_a_millimetre():
     """In float32 at 128 m floats are 2^-16 m apart, and 16 eps of the coordinates 1 mm: 6 of them
     are 0.092 mm, 7 are 0.107 mm.
@@ -1449,6 +1450,7 @@ def test_an_answer_beyond_float32_is_refused_also_where_nothing_is_lost_or_energ
     assert set(small.status.tolist()) == {int(col.Status.ENERGY_GAIN if ratio else col.Status.OK)}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_bounds_of_an_interval_are_searched_at_both_ends_of_95_percent(sign):
     """y = k x - 1.5 k^2 with x normal and k between 0 and 1: its 97.5 percent point is greatest at
@@ -1512,6 +1514,7 @@ def test_standard_errors_of_contributions_take_one_off_too():
         assert errors[name][1] == pytest.approx(statistics.stdev(totals) / 4.0, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_a_tolerance_is_kept_at_both_ends_of_95_percent():
     """Of 0.5 to 1, whose upper 4 percent are drawn out ten times: 97.5 percent lies there, 95 does
     not.

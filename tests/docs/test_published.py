@@ -83,6 +83,7 @@ def test_small_overlap_rows(test):
     assert held(forward.barrier_comparisons(test)) >= 6
 
 
+@pytest.mark.slow
 def test_no_printed_figure_is_forgotten():
     """Each is compared, but for two of another method, words, and what the tests below hold."""
     seen = {

@@ -127,6 +127,7 @@ def test_a_plain_number_that_float32_cannot_hold_is_not_lost(mass):
     assert many.normal_impulse[0] == pytest.approx(one.normal_impulse, rel=8 * 2.2e-16)
 
 
+@pytest.mark.slow
 def test_single_precision_angles_in_degrees():
     """Degrees keep the precision of their array, and the normal of the result can be given again to
     the same bits.
@@ -362,6 +363,7 @@ def test_a_batch_without_a_case_asks_for_what_one_with_cases_does():
         col.eccentric(col.Vehicle.barrier(), b, 0.0, normal=0.0, point=(0.0, 0.0), friction=0.0)
 
 
+@pytest.mark.slow
 def test_dimensions_beyond_what_numpy_holds_everywhere():
     """24 are solved, by every function; more are refused where they are given, before numpy stops
     at 32 in its midst.

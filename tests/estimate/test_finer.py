@@ -881,6 +881,7 @@ def test_sharp_bounds_that_only_the_first_model_meets_are_refused():
     assert refused.value.code == "too_far"
 
 
+@pytest.mark.slow
 def test_a_way_that_does_not_end_is_refused(monkeypatch):
     monkeypatch.setattr(tempering, "_MOST_STEPS", 1)
     with pytest.raises(col.NoSolutionError, match="too far from") as refused:

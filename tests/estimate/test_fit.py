@@ -797,6 +797,7 @@ def test_a_direction_is_told_of_the_unknown_that_moves_most_along_it():
     assert "a change of turn by +1 together with aside by" in direction.sentence
 
 
+@pytest.mark.slow
 def test_sticking_leaves_friction_undetermined():
     """Evidence of a contact that stuck: friction is named, the rest answered."""
     true = {"speed_a": 15.0, "speed_b": 12.0, "restitution": 0.1}
@@ -828,6 +829,7 @@ def test_the_model_refuses_everywhere():
     assert found.values["speed_a"] == pytest.approx(10.0, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_places_too_rare_for_the_searches_are_for_the_posterior():
     """Answers only from 0.7013 to 0.7101 of the range, where none of 64 starts lies: the posterior
     finds them.
@@ -848,6 +850,7 @@ def test_places_too_rare_for_the_searches_are_for_the_posterior():
     assert abs(found["x"].mean - 0.705) < 5.0 * found["x"].mean_standard_error + 1e-5
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "model",
     [
@@ -1030,6 +1033,7 @@ def test_a_valley_that_bends_has_the_range_of_its_floor():
     assert found.nonlinearity > 0.2
 
 
+@pytest.mark.slow
 def test_a_model_that_refuses_within_its_errors_warns():
     """A root known to end a standard error below the estimate."""
     found, codes = fitted(
@@ -1263,6 +1267,7 @@ def test_an_angle_that_the_model_returns_as_a_quantity_goes_round_too():
     assert found.values["x"] == pytest.approx(-3.1 - 0.5 * (2 * math.pi - 6.2), abs=1e-7)
 
 
+@pytest.mark.slow
 def test_a_bare_angle_that_jumps_is_pointed_out():
     """Without a unit 3.1 and -3.1 are far apart; the answer says so."""
     found, codes = fitted(
@@ -1293,6 +1298,7 @@ def simple():
     )
 
 
+@pytest.mark.slow
 def test_a_fit_feeds_a_propagation():
     """First order through a linear model: A C A^T, as matrices have it."""
     found, matrix = simple()
@@ -1343,6 +1349,7 @@ def same(v):
     return {"o": v + 0.0}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("study", "name"),
     [
@@ -1561,6 +1568,7 @@ def test_a_model_that_scatters_has_the_answer_of_one_that_does_not(scatter):
         assert got[name].standard_error == pytest.approx(error, rel=0.02)
 
 
+@pytest.mark.slow
 def test_a_kink_is_refused_in_a_model_that_scatters_too():
     """The slope of |x| changes sign where the misfit is least."""
 

@@ -68,6 +68,7 @@ def phi(z):
 # --- closed forms
 
 
+@pytest.mark.slow
 def test_one_reading_of_a_normal_prior():
     """Weights 1/2^2 and 1/1^2; the evidence is the density of the reading about the prior's mean,
     variances added.
@@ -1003,6 +1004,7 @@ def test_a_kind_of_evidence_is_one_class(monkeypatch):
     assert "dof=3" in repr(found.observed["read"])
 
 
+@pytest.mark.slow
 def test_what_is_shown_as_computed_is_the_mean_of_what_the_model_gives():
     """A prior of 20 +/- 2 and a reading of 23 +/- 1: the mean is 22.4, less than was read."""
     found, _ = sampled(lambda v: {"v": v}, {"v": Normal(20, 2)}, {"v": (23.0, 1.0)})
@@ -1013,6 +1015,7 @@ def test_what_is_shown_as_computed_is_the_mean_of_what_the_model_gives():
     close(shown.computed, found["v"].mean_standard_error, 22.4)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("apart", "agrees"), [(3.2, True), (3.55, True), (3.75, False)])
 def test_evidence_contradicts_itself_from_a_chance_of_one_in_a_hundred_on(apart, agrees):
     """Chi-squared of a prior and a reading that far apart, of variance 1 each, is half the square:
@@ -1184,6 +1187,7 @@ def test_what_a_reading_was_worked_out_from_is_said_and_recorded():
     assert Normal(damage, 1e4) == Normal(float(damage), 1e4)
 
 
+@pytest.mark.slow
 def test_a_result_that_no_sample_has_is_refused_with_what_to_write():
     """A car that goes against the x axis has a vx below 0, which is no speed."""
     found, _ = sampled(
@@ -1376,6 +1380,7 @@ def test_units_that_are_required_are_required_of_readings(study):
             study(_halved, prior, {"dv": (5, 1)}, threads=2, **options)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("at", "error"), [(1e4, 0.01), (1e8, 1.0)])
 def test_what_no_prior_reaches_is_refused_soon(at, error):
     """As the way there, at the rate of the first stages, would take thousands of them."""

@@ -190,6 +190,7 @@ def test_frozen():
         hash(SCENES[0])
 
 
+@pytest.mark.slow
 def test_repr_and_tables():
     """One line with units, and a table for notebooks, of every kind of impact."""
     for impact in SCENES:
@@ -501,6 +502,7 @@ def test_one_degree_of_freedom_has_no_critical_ratio(which, rule):
     assert replay(col.report(impact, form="markdown")) == impact
 
 
+@pytest.mark.slow
 def test_one_degree_of_freedom_backwards():
     """A critical fraction of 0 leads back as no friction does, for both laws."""
     a, b = ONE_DEGREE["two parallel arms"]
@@ -531,6 +533,7 @@ def test_the_impulse_plane_says_what_is_not_defined():
     assert "no-slip impulse" not in {line.get_gid() for line in axes.get_lines()}
 
 
+@pytest.mark.slow
 def test_answers_of_batches_compare_by_value():
     """Equal to one that was solved again and to its pickle, and not to one with another number in
     one case.

@@ -105,6 +105,7 @@ def test_locked_wheels_in_a_rear_end_impact(speed, share):
     assert found.residual_crush == pytest.approx(found.a.displacement_x - found.b.displacement_x)
 
 
+@pytest.mark.slow
 def test_tyres_that_one_vehicle_lacks_are_left_out():
     """A rolls, B slides forward: half of what its tyres take is shared by the contact. A wall has
     no tyres, and where both were given, nothing is left out.
@@ -394,6 +395,7 @@ def test_geometry_of_a_short_plastic_contact_is_that_in_time(geometry, normal):
     assert [found.a.geometry_yaw_rate, found.b.geometry_yaw_rate] == pytest.approx(turned, rel=3e-3)
 
 
+@pytest.mark.slow
 @TOUCHES
 def test_geometry_of_an_impact_is_that_in_time_to_two_percent_of_delta_v(geometry):
     """T-bones, also of a vehicle that crosses and turns, and a wall; positions at maximum
@@ -708,6 +710,7 @@ def test_single_precision_stays():
         np.testing.assert_allclose(value, numbers(full)[name], rtol=2e-4, atol=1e-4)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", [np.float32, np.float64])
 def test_a_linear_impact_at_an_angle_has_estimates_in_every_case(kind):
     """Both slide one way, so that each loses what its tyres take; the rounding of the pull is not
@@ -806,6 +809,7 @@ def test_an_impact_that_gains_energy_says_so_once():
         assert col.left_out(impact).a.tyre_delta_v > 0.0
 
 
+@pytest.mark.slow
 def test_a_large_batch_that_gains_energy_says_so_once():
     """Also where it is worked out in blocks."""
     with pytest.warns(col.EnergyGainWarning):
@@ -1254,6 +1258,7 @@ def test_the_script_writes_what_it_prints(script, measured, monkeypatch, capsys,
         assert scene.name in printed
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("restitution", [5e-324, 1e-320])
 def test_the_least_restitution_leaves_out_what_none_does(restitution):
     """Restitution takes so long as compression: next to nothing, not a time over nothing."""
@@ -1275,6 +1280,7 @@ def test_what_a_refused_scene_without_a_point_leaves_out():
         assert np.isnan(col.left_out(impact).b.tyre_delta_v).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("both", [False, True])
 def test_tyres_that_a_central_model_leaves_out_of_solve_count(both):
     """What they change is what the eccentric model changes with them, not a multiple of it; each

@@ -437,6 +437,7 @@ def test_in_line_by_hand_incomplete():
     assert impact.energy_loss == pytest.approx(0.5 * 600.0 * (100.0 - 4.0), rel=1e-14)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("e", [-0.02, -0.5])
 def test_central_goes_back_from_any_three(e):
     impact = col.linear_central(FIRST, SECOND, e, incomplete=True)
@@ -557,6 +558,7 @@ def test_speeds_take_a_function_that_goes_below_0():
     )
 
 
+@pytest.mark.slow
 def test_what_is_left_out_and_found():
     impact = col.eccentric(A, B, -0.3, friction=0.4, incomplete=True, **PLACE)
     found = col.left_out(impact)
@@ -727,6 +729,7 @@ SLIDING = {
 }  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("acts", SLIDING.values(), ids=SLIDING)
 @pytest.mark.parametrize("turns", [True, False])
 def test_the_laws_are_one_where_the_contact_slides_one_way(acts, turns):
@@ -777,6 +780,7 @@ def test_a_push_along_the_tangent_leaves_the_work_along_the_normal():
     assert impact.energy_loss_tangential == pytest.approx(impact.energy_loss - 0.75 * work)
 
 
+@pytest.mark.slow
 def test_compression_ends_within_the_contact_whatever_acts():
     """Where with a part of what acts from outside it would not, all of that comes first."""
     a = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=-2.1, y=0.0, heading=0.0, vx=3.435146)

@@ -938,6 +938,7 @@ FIELDS += (
 )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("geometry", "stiffness"),
     [("maximum_engagement", "duration"), ("first_contact", "crush"), ("fixed", "stiffness")],
@@ -998,6 +999,7 @@ def test_a_batch_is_its_cases(geometry, stiffness):
         col.time_resolved(a, col.Vehicle(**B), 0.1, **contact, **kind, drag=drags)
 
 
+@pytest.mark.slow
 def test_blocks_threads_and_progress():
     """More cases than a block, on two threads, are the same; each block is reported."""
     speeds = np.linspace(5.0, 20.0, 2100)
@@ -1093,6 +1095,7 @@ def test_records_pickles_and_columns(kind):
         col.Impact.from_dict(broken)
 
 
+@pytest.mark.slow
 def test_again_changes_arguments():
     """Another restitution, another kind of stiffness, another geometry; a law it has not."""
     impact = t_bone()
@@ -1530,6 +1533,7 @@ def off_by(answer, other):
     return max(np.linalg.norm(difference[:3]), np.linalg.norm(difference[3:]))
 
 
+@pytest.mark.slow
 def test_the_least_model_with_a_duration():
     """The errors are those against a contact in 25 steps; the least model within 1 / 1.15 of the
     tolerance; 0 is the fullest.

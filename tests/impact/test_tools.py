@@ -234,6 +234,7 @@ def test_every_attribute_is_the_same_after_the_journey(name):
             assert not value.flags.writeable
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ERRORS)
 def test_errors_keep_their_fields(process, kind):
     """Code, message and fields, through pickle, copy and a worker that raises; the answers of an
@@ -390,6 +391,7 @@ def test_contacts_in_time_hold_the_bits_of_the_whole_in_blocks_of_more_than_128(
     np.testing.assert_allclose(by_one, whole, rtol=1e-12, atol=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("size", [1, 7, 1000])
 def test_blocks_in_another_process_hold_the_bits_of_the_whole(process, size):
     """Wherever a batch is cut, and whatever process has the part."""

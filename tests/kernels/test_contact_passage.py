@@ -207,6 +207,7 @@ def test_every_answer_is_continuous_in_the_restitution(law, pushed):
             assert of_fine <= 0.6 * of_coarse + 1e-8, (name, friction, a, b)
 
 
+@pytest.mark.slow
 def test_a_batch_is_its_cases():
     scenes = [scene for scene, _ in cases("traffic", "stronge", "friction", 60)]
     many = solved_together("eccentric", scenes)

@@ -51,12 +51,16 @@ def _slow_unless(every_run: bool) -> Any:
     return () if every_run else pytest.mark.slow
 
 
-# Friction under "brach" in every family, and all in traffic, are for every run; the rest is slow.
+# Friction under "brach" in every family, and what is usual in traffic, are for every run; the rest
+# is slow.
 group = pytest.mark.parametrize(
     ("family", "law", "rule"),
     [
         pytest.param(
-            *one, marks=_slow_unless(one[0] == "traffic" or one[1:] == ("brach", "friction"))
+            *one,
+            marks=_slow_unless(
+                one[1:] == ("brach", "friction") or (one[0] == "traffic" and one[2] in RULES)
+            ),
         )
         for one in GROUPS
     ],
@@ -408,6 +412,7 @@ FLAT_FAMILIES = [
 ]
 
 
+@pytest.mark.slow
 @families(FLAT_FAMILIES)
 @rules
 @way

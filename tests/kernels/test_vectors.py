@@ -189,6 +189,7 @@ def test_answers_have_seventeen_digits(impacts):
     assert sum(written) / len(written) > 16.5
 
 
+@pytest.mark.slow
 def test_no_difference_of_the_inputs_is_rounded(impacts):
     """Of positions and of velocities, so that every program starts from the same numbers."""
     for impact in impacts:

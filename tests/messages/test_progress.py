@@ -74,6 +74,7 @@ def test_a_bar_where_tqdm_is_installed(monkeypatch):
     assert seen == [V.size, STEP, 2 * STEP, 3 * STEP, "closed"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("threads", [1, 2])
 def test_solve_counts_all_cases_once_whatever_their_models(threads):
     """One run from nothing to all, though three models answer."""

@@ -369,6 +369,7 @@ def test_matplotlib_is_imported_when_something_is_drawn_and_not_before():
     subprocess.run([sys.executable, "-c", code], check=True, env=environment)
 
 
+@pytest.mark.slow
 def test_only_where_it_is_needed_matplotlib_is_named():
     """No import of it outside functions and TYPE_CHECKING, in any module but one that is itself
     imported when drawing.
@@ -559,6 +560,7 @@ def test_arrows_of_an_in_line_scene_do_not_hide_each_other(solver):
     assert said >= 2
 
 
+@pytest.mark.slow
 def test_arrows_that_are_apart_stay_where_they_are():
     """Nothing is said of it, and both impulses start at the contact."""
     assert "side by side" not in drawn("scene", "sticking").get_xlabel()
@@ -772,6 +774,7 @@ def test_what_is_met_at_the_contact_alone_is_a_wall_behind_it():
     assert depths.max() > 0.1
 
 
+@pytest.mark.slow
 def test_a_speed_that_is_known_from_one_side_is_marked_as_that():
     """A, whose speed is known, is not."""
     cars = (
@@ -1249,6 +1252,7 @@ def acted_on(**more):
     return col.eccentric(a, b, 0.1, normal=0.0, point=(0.0, 0.1), friction=0.3, **more)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("impact", "shown"),
     [
@@ -1578,6 +1582,7 @@ def test_a_contact_that_moves_along_the_normal_alone_has_no_lines_of_slip(angle,
         assert "one degree of freedom" in axes.get_title()
 
 
+@pytest.mark.slow
 def test_the_plane_of_a_model_that_solve_chose_is_that_of_the_model():
     """Re-asked for another ratio, the choice itself might be another."""
     chosen = col.solve(A, B, 0.1, friction=0.5, tolerance=1e9, **T_BONE)
@@ -1591,6 +1596,7 @@ def test_the_plane_of_a_model_that_solve_chose_is_that_of_the_model():
     assert one == pytest.approx(other)
 
 
+@pytest.mark.slow
 def test_an_energy_gain_is_not_warned_of_again():
     with pytest.warns(col.EnergyGainWarning):
         gaining = col.eccentric(A, B, 1.0, impulse_ratio=0.5, **T_BONE)
@@ -1625,6 +1631,7 @@ def test_areas_are_the_impulses(case):
         )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("restitution", "turn"), [(0.0, 0.1), (0.25, 0.08), (1.0, 0.05)])
 def test_restitution_takes_its_part_of_the_time(restitution, turn):
     """Figure 3: as long as compression if elastic, shorter if elastoplastic, no time if plastic."""
@@ -1677,6 +1684,7 @@ def test_the_pulse_that_is_drawn_is_the_one_that_left_out_assumes(restitution):
     )
 
 
+@pytest.mark.slow
 def test_the_mean_force_is_the_impulse_over_the_duration():
     impact = IMPACTS["example 2"]
     axes = plot.force_time(impact, 0.12, units="si")
@@ -2102,6 +2110,7 @@ def test_residuals_stand_where_they_are(two_speeds):
     plt.close("all")
 
 
+@pytest.mark.slow
 def test_axes_that_held_a_scene_take_another_picture(two_speeds):
     """clear() leaves the equal scales; a range of 1e-6 by 1e3 is a needle on them, whose width is 0
     in pixels.

@@ -45,6 +45,7 @@ def followed():
     return col.time_resolved(a, b, 0.3, normal=0.0, point=(0.0, 0.0), friction=0.0, duration=0.1)
 
 
+@pytest.mark.slow
 def test_the_legend_of_the_force_has_the_impulses_and_forces_of_the_answer(central):
     """Compression takes 0.08 s of 0.1 s; a quarter of a sine of 5000 N*s over it has a peak of pi/2
     of its mean.
@@ -58,6 +59,7 @@ def test_the_legend_of_the_force_has_the_impulses_and_forces_of_the_answer(centr
     ]
 
 
+@pytest.mark.slow
 def test_the_legend_of_a_pulse_has_the_delta_v_of_each_vehicle(followed):
     """A's is half of B's, as A has twice the mass: 10 * 1.3 / 3 m/s and twice that."""
     axes = plot.pulse(followed, units="metric")
@@ -78,6 +80,7 @@ def test_the_legend_of_a_pulse_has_the_delta_v_of_each_vehicle(followed):
     )
 
 
+@pytest.mark.slow
 def test_the_title_of_a_pulse_has_its_duration_its_peak_and_its_crush(followed):
     pulse = followed.pulse
     first, _ = plain(plot.pulse(followed, units="si").get_title()).split("\n")

@@ -48,6 +48,7 @@ def test_the_dark_band_is_one_stated_error_and_the_light_one_two(read_once):
     )
 
 
+@pytest.mark.slow
 def test_the_line_of_a_reading_holds_95_percent_of_what_is_computed(read_once):
     """From 0.6 the mean, 1.96 * sqrt(0.8) to either side, in stated errors of 1."""
     axes = plot.residuals(read_once)
@@ -59,6 +60,7 @@ def test_the_line_of_a_reading_holds_95_percent_of_what_is_computed(read_once):
     )
 
 
+@pytest.mark.slow
 def test_the_outer_contour_of_a_pair_holds_95_percent_and_the_inner_one_half(read_once):
     """Of 8,192 samples on 28 cells to a side, a share is known to a few percent of the whole."""
     pair = next(axes for axes in plot.corner(read_once).axes if axes.get_gid() == "v and w")

@@ -119,6 +119,7 @@ def test_what_is_asked_of_a_result_needs_a_unit(name, value):
     col.diagnose(impact, **{name: value})
 
 
+@pytest.mark.slow
 def test_what_stands_beside_the_samples_of_a_posterior_needs_a_unit():
     with col.options(require_units=True):
         found = reconstruct.posterior(
@@ -162,6 +163,7 @@ def test_functions_of_a_result_and_published_values_refuse_too():
             col.Vehicle(mass=1500.0)
 
 
+@pytest.mark.slow
 def test_a_report_can_be_made_again_where_units_are_required():
     with col.options(require_units=True):
         given = {

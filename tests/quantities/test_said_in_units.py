@@ -182,6 +182,7 @@ def test_numbers_near_each_other_are_written_apart():
     assert len(set(say.apart([one, np.nextafter(one, 1.0)], "number"))) == 2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("texts", [["35 mph"], ["10 km/h"], []])
 @pytest.mark.parametrize("kind", ["speed", "energy", "length"])
 def test_a_bound_is_rounded_to_the_side_on_which_it_is_allowed(texts, kind):

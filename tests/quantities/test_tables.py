@@ -204,6 +204,7 @@ def test_every_result_has_a_summary_in_its_units():
     assert "eccentric" in str(choice.summary())
 
 
+@pytest.mark.slow
 def test_a_fit_and_findings_are_tables():
     fit = reconstruct.fit(
         lambda speed: {
@@ -241,6 +242,7 @@ def struck(speed, restitution=0.1):
     return {"delta_v": impact.b.q.delta_v}
 
 
+@pytest.mark.slow
 def test_a_propagation_needs_no_method_and_speaks_the_units_of_its_inputs():
     """Linear in the speed: 0.55 times 40 and 2 mph, and 1.96 standard deviations to each side."""
     found = propagate(struck, {"speed": Normal("40 mph", "2 mph")}, seed=1)
@@ -291,6 +293,7 @@ def test_a_page_is_a_text_that_shows_and_saves_itself(form, tmp_path):
     assert page._repr_markdown_() == (page if form == "markdown" else None)
 
 
+@pytest.mark.slow
 def test_a_note_stands_beside_its_input_and_comes_back_with_the_record():
     impact = crash()
     notes = {

@@ -908,6 +908,7 @@ def test_normals_as_tuple_array_and_list():
     assert value_error_code(lambda: solve((1.0, 0.0, 0.0))) == "bad_shape"
 
 
+@pytest.mark.slow
 def test_a_unit_normal_can_be_given_again():
     """Normalising the normal of a result gives the same bits, single or many."""
     generator = np.random.default_rng(7)

@@ -38,6 +38,14 @@ TWENTY = list(itertools.combinations(NAMES, 3))
 # The velocity of one body before, of the other after, and the energy: a hyperbola cut by a line.
 TWO_ROOTS = (("va", "vb_after", "energy_loss"), ("vb", "va_after", "energy_loss"))
 twenty = pytest.mark.parametrize("names", TWENTY, ids="-".join)
+some_of_twenty = pytest.mark.parametrize(
+    "names",
+    [
+        names if number % 3 == 0 else pytest.param(names, marks=pytest.mark.slow)
+        for number, names in enumerate(TWENTY)
+    ],
+    ids="-".join,
+)
 mp = mpmath.mp.clone()
 mp.dps = 50
 
@@ -265,7 +273,7 @@ def together(names, family):
 @extremes
 @pytest.mark.parametrize("way", [alone, together])
 @pytest.mark.parametrize("family", FAMILIES)
-@twenty
+@some_of_twenty
 def test_the_impact_that_the_knowns_came_from_is_found(names, family, way):
     """Every case of every family; where the equations leave it open (a barrier keeps its velocity),
     it is refused.
@@ -888,6 +896,7 @@ def test_a_record_and_a_case_of_a_batch_keep_the_digits(names):
     )
 
 
+@pytest.mark.slow
 def test_example_2_of_the_paper():
     """1100 kg at 80 km/h into 950 kg at rest, which leaves at 60: 310/11 km/h and 35/88 exactly;
     7.82 m/s and 0.40 in print.

@@ -303,6 +303,7 @@ def test_a_course_exactly_across_has_an_infinite_condition_and_a_derivation():
     assert "the condition is infinite" in str(col.explain(found))
 
 
+@pytest.mark.slow
 def test_a_side_that_is_lost_while_the_tyres_are_worked_out_is_refused():
     """Of a slow car the tyres decide where it came from: along the other side the balance does not
     settle, though the truth lies there, so the one that settles is no answer.

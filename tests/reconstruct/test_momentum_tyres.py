@@ -127,6 +127,7 @@ def forward(rng):
     return impact, known
 
 
+@pytest.mark.slow
 def test_the_pdof_is_that_of_the_contact_without_the_tyres():
     """What the contact does to A it does to B the other way (Newton's third law); and it comes from
     where it comes forward.

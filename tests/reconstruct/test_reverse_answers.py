@@ -533,6 +533,7 @@ def test_a_duration_beside_tyres_and_a_recorder_that_was_changed_is_refused():
             replay(tampered(page, lambda r, to=changed: given_of(r).update(duration=to)))
 
 
+@pytest.mark.slow
 def test_a_yaw_rate_after_that_was_changed_is_refused():
     """Of which the energy, and so the speeds before, hardly depend on."""
     found = of_planar()

@@ -873,6 +873,7 @@ def test_what_an_energy_may_differ_by_beside_a_contact_that_stuck(factor, said, 
     assert found.b.before.speed == pytest.approx(16.0, abs=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rule", ["friction", "impulse_ratio"])
 @pytest.mark.parametrize("beside", ["energy_loss", "ees"])
 @pytest.mark.parametrize("more", [{}, {"slid": "bound"}])
@@ -926,6 +927,7 @@ def test_the_condition_where_a_contact_just_stuck_is_that_of_one_that_slid():
     assert "ill_conditioned" in [one.code for one in col.diagnose(found)]
 
 
+@pytest.mark.slow
 def test_with_hardly_any_friction_an_energy_leaves_both():
     """A contact that stuck and one that slid lose the same to four digits."""
     contact = {"normal": 0.1, "point": (0.0, 0.1), "friction": 1e-6}

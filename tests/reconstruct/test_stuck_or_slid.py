@@ -758,6 +758,7 @@ def test_a_bound_of_which_the_direction_is_not_known_is_not_stated(factor, frict
     assert "one of the speeds" in str(caught.value)
 
 
+@pytest.mark.slow
 def test_cases_of_a_batch_without_a_direction_are_refused():
     with pytest.warns(col.CollisionsWarning) as caught:
         (found,) = either_way(np.array([1.0, 1.02, 0.5]), friction=0.15, slid="bound")
@@ -1040,6 +1041,7 @@ def test_beside_a_speed_a_bound_lies_on_the_side_of_the_one_that_slid():
     assert open_ >= 5
 
 
+@pytest.mark.slow
 def test_beside_a_known_speed_nothing_is_said_of_the_friction_if_it_slid():
     """Two cars that slid at 0.56, which beside the speed of A a contact that sticks at 0.48 shows:
     friction was more than that, and the other speed another one.

@@ -307,6 +307,7 @@ def test_the_box_has_no_names_of_functions():
         assert text.count("that fit what was") == 1
 
 
+@pytest.mark.slow
 def test_courses_that_were_given_as_numbers_stand_on_the_page():
     found = reconstruct.speeds(
         A, B, course_a=0.0, course_b=0.5 * math.pi, restitution=0.1, speed_b="25 mph",

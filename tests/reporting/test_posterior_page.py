@@ -40,6 +40,7 @@ def test_the_answer_is_what_was_worked_out_and_the_speeds(found):
     assert "<details>\n<summary>Also found:</summary>" in folded
 
 
+@pytest.mark.slow
 def test_the_answer_is_what_was_asked_for_in_that_order(found):
     page = col.report(found, form="markdown", answers=["drag", "way"])
     assert re.findall(r"\*\*(.+):\*\*", box(page)) == ["drag", "way"]

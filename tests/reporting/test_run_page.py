@@ -463,6 +463,7 @@ def test_the_page_says_where_the_centre_of_mass_lies_in_an_outline(outline: Any,
     assert rows.get("centre of mass") == says
 
 
+@pytest.mark.slow
 def test_the_page_has_the_corners_of_an_outline_that_is_no_rectangle() -> None:
     rows = inputs_of(
         side_on(outline=[(2.0, 0.0), (1.5, 0.8), (-2.0, 0.8), (-2.0, -0.8), (1.5, -0.8)])
@@ -494,6 +495,7 @@ def test_html_has_both_figures_or_says_how_to_have_them(monkeypatch: pytest.Monk
     assert "None: matplotlib cannot be imported here. Install it with: python -m pip" in page
 
 
+@pytest.mark.slow
 def test_a_run_among_other_results_is_refused_with_its_own_page() -> None:
     impact = col.linear_central(col.Vehicle(mass=1500.0, vx=10.0), col.Vehicle(mass=1200.0), 0.1)
     with pytest.raises(col.InputError, match=r"write report\(run\)"):

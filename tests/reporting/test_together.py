@@ -136,6 +136,7 @@ def test_a_fit_has_the_picture_and_the_marks_without_ranges(run):
     assert "No range is stated for the figures above that have only one number." in box(page)
 
 
+@pytest.mark.slow
 def test_a_run_of_another_scene_and_two_runs_are_refused(found, run):
     with pytest.raises(col.InputError, match=r"'the speed', which the scene of its run does not"):
         col.report([found, Scene(movers=scene().movers, contacts=scene().contacts).run()])
@@ -153,6 +154,7 @@ def test_a_run_of_another_scene_and_two_runs_are_refused(found, run):
         col.report([found, run], uncertainty=[None])
 
 
+@pytest.mark.slow
 def test_a_heading_of_rest_has_no_whole_turns(found):
     """It turns by more than a turn on its way, and rests between -180 and 180 degrees."""
     spun = scene().replace({"Rover.yaw_rate": 15.0, "the speed": found["the speed"].mean}).run()
@@ -210,6 +212,7 @@ def test_what_is_no_number_of_a_scene_is_compared_too():
     assert differs_at(scene(), faster, ["the speed"]) == "Rover.vy"
 
 
+@pytest.mark.slow
 def test_a_report_with_what_was_found_cannot_be_made_again_from_it(found, run):
     """Its model is code."""
     with pytest.raises(col.InputError, match="the report of a Posterior, which cannot be made"):
@@ -339,6 +342,7 @@ def test_what_was_warned_of_the_samples_stands_in_the_answer():
     assert alone[: alone.index("## Record")].replace("\\", "").count(counted) == 1
 
 
+@pytest.mark.slow
 def test_findings_of_an_impact_in_the_answer_say_which(found, run):
     page = col.report([found, run], form="markdown", limits={"tyre_impulse": 0.0})
     told = re.findall(r"- \*\*tyre impulse:\*\* (.*)", box(page))

@@ -122,6 +122,7 @@ def test_samples_of_a_curve_are_evidence_of_speeds_and_of_the_duration() -> None
     assert found["contacts[0].duration"].value == pytest.approx(0.1, rel=2e-3)
 
 
+@pytest.mark.slow
 def test_an_impact_is_followed_once_for_all_samples_of_a_recorder(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

@@ -58,6 +58,7 @@ def test_going_straight_back_the_face_that_parts_first(turn: float) -> None:
         assert np.array(many.impacts[0].normal)[:, 0] == pytest.approx(expected, abs=1e-12)
 
 
+@pytest.mark.slow
 def test_an_offset_rear_end_engaged_by_more_than_its_lateral_overlap() -> None:
     """Its delta-V changes with the engagement as the states do, and not by a factor of a hundred:
     that of the rear given as the face, by `eccentric`.

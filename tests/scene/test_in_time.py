@@ -200,6 +200,7 @@ def test_while_a_contact_lasts_the_cars_move_as_its_curves_say(at) -> None:
             assert found[1:] - found[0] == pytest.approx(way, abs=2e-3)
 
 
+@pytest.mark.slow
 def test_a_mirrored_scene_has_a_mirrored_answer() -> None:
     """The point comes from the outlines as they lie 0.03 s after first touch, carried back."""
     wheels = Tyres(0.7, 0.3, 2.7, 1.5)
@@ -229,6 +230,7 @@ def test_a_wall_stays_and_carries_the_normal() -> None:
     assert run.rest["A"].vx == 0.0
 
 
+@pytest.mark.slow
 def test_a_row_bumper_to_bumper_is_struck_one_after_another() -> None:
     """While a contact lasts its vehicles have no other; momentum is kept, as nothing slows them."""
     movers = {
@@ -261,6 +263,7 @@ def test_a_contact_at_a_time_within_another_is_refused() -> None:
     assert list(run.status) == ["contact_meanwhile", "ok"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("at", [0.0, "touch"])
 def test_the_least_model_within_a_tolerance_may_be_that_in_time(at: Any) -> None:
     """``solve`` takes the places to be those of maximum engagement, and the vehicles go on from
@@ -438,6 +441,7 @@ def test_the_ground_takes_no_more_than_friction_over_the_time_of_all_contacts(ga
     assert of_b <= second + 0.15 - run.times[0] + 1e-9
 
 
+@pytest.mark.slow
 def test_a_contact_at_the_moment_of_another_has_its_tyres_for_nothing() -> None:
     """About the maximum engagement at time 0 both last as long; a later one, of a batch, has what
     half of the first leaves of it.

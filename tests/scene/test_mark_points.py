@@ -134,6 +134,7 @@ def test_a_mark_ends_where_the_wheel_leaves_off_and_not_at_the_last_moment_befor
     assert steps.max() < 0.05
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("width", [2.0, 1.0, 0.3, 0.04])
 def test_a_mark_on_a_strip_of_ice_is_as_long_as_the_strip(width: float) -> None:
     """A brake that 0.3 of the friction holds locks its wheel where there is a seventh of it."""
@@ -353,6 +354,7 @@ def test_a_mark_with_gaps_begins_with_its_first_piece_and_ends_with_its_last() -
             assert np.hypot(px - x[at], py - y[at]) <= 1.5 * step
 
 
+@pytest.mark.slow
 def test_points_may_have_units_or_be_an_array() -> None:
     scene = crash()
     texts = scene.mark_points("A", "front_left", [("10 ft", "2.5 m")], "1 ft")

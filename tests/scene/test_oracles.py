@@ -296,6 +296,7 @@ def cradle(masses: list[float], speed: float, gaps: list[float], e: float) -> li
         places[i + 1] = places[i] + 1e-13
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("masses", "e"),
     [

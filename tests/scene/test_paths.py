@@ -237,6 +237,7 @@ def model(scene: Scene, *outputs: Any) -> Any:
     return scene.as_model(["A.vx"], [*outputs])
 
 
+@pytest.mark.slow
 def test_results_are_asked_for_by_their_paths() -> None:
     scene = in_line(drag=0.5)
     found = model(scene, "end", "times[0]", "impacts[0].b.delta_v", "impacts[0].a.after.speed")(
@@ -495,6 +496,7 @@ def test_why_cases_of_a_scene_have_no_answer_is_stated_once() -> None:
     ]
 
 
+@pytest.mark.slow
 def test_a_study_without_an_answer_names_the_causes_by_their_number() -> None:
     one = {"Explorer.vx": Normal("20 m/s", "1 m/s")}
     asked = {"outputs": ["impacts[2].a.before.speed"], "samples": 64, "seed": 1}

@@ -136,6 +136,7 @@ def test_a_lorry_that_goes_into_a_car_it_struck_and_comes_out_again(y: float) ->
     assert "do not part right after their contact, and overlap by" in said
 
 
+@pytest.mark.slow
 def test_a_lorry_that_goes_right_through_a_car_in_a_contact_that_lasts() -> None:
     """However deep the contact itself left them."""
     movers = {

@@ -96,6 +96,7 @@ def test_a_drag_is_that_of_locked_wheels_on_a_straight_way() -> None:
     assert 0.45 < half.level.drags["A"] < 0.75
 
 
+@pytest.mark.slow
 def test_without_tyres_the_motion_is_as_given() -> None:
     # Nothing slows the vehicles while the finest level follows their contact.
     with pytest.warns(col.OutOfRangeWarning, match="a drag does not act"):
@@ -105,6 +106,7 @@ def test_without_tyres_the_motion_is_as_given() -> None:
     assert found.finest.scene.movers["A"].drag == 0.6
 
 
+@pytest.mark.slow
 def test_a_contact_that_cannot_be_followed_in_time_stays_as_it_is() -> None:
     found = crash(friction=None, impulse_ratio=0.2).required({"B.rest.x": "0.5 m"})
     assert [one.level.contacts for one in found.costs] == ["instant", "instant"]

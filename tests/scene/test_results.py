@@ -249,6 +249,7 @@ def test_the_ees_of_a_vehicle_has_its_share_of_the_energy_lost() -> None:
         row().as_model([], ["impacts[0].a.ees(1.2)"])
 
 
+@pytest.mark.slow
 def test_the_ends_of_tyre_marks_are_listed_as_results() -> None:
     car = col.Vehicle(mass=1500, yaw_inertia=2500, vx=15, x=0, y=0, heading=0)
     skid = Scene(movers={"A": Mover(car, tyres=Tyres(0.7, 1, 2.7, 1.5))}, contacts=[])

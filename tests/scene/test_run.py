@@ -111,6 +111,7 @@ def test_a_run_is_equal_to_one_of_the_same_scene_and_tolerance_only() -> None:
     assert repr(run) == "<Run of A, B: 1 impacts>"
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings(NO_ANSWER)
 def test_a_batch_says_which_cases_have_no_answer_and_is_nan_there() -> None:
     run = two(np.array([10.0, 11.0, 0.0])).run()
@@ -156,6 +157,7 @@ def test_what_a_batch_does_not_have_says_what_to_write(ask: Any, code: str, says
     assert caught.value.code == code
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings(NO_ANSWER)
 @pytest.mark.parametrize(
     ("drag", "code"),
@@ -500,6 +502,7 @@ def test_a_stated_normal_has_its_point_from_the_overlap(a: str, b: str, normal: 
     assert many.impacts[0].normal[1] == pytest.approx([0.0, math.sin(0.1)])
 
 
+@pytest.mark.slow
 def test_a_normal_along_which_nothing_closes_has_no_contact() -> None:
     with pytest.raises(col.NoSolutionError, match=r"touch at 0\.2 s, and do not close") as caught:
         pushed(Contact("A", "B", normal=3.1, **AT_TOUCH))
@@ -589,6 +592,7 @@ def braked(mass: float, x: float, drag: float, speed: float = 0.0) -> Mover:
     return Mover(vehicle, outline=(4.6, 1.8), drag=drag)
 
 
+@pytest.mark.slow
 def test_a_striker_that_is_braked_less_is_found_to_go_through_the_struck_car() -> None:
     """What pushes without a blow is not followed: single cases say so, batches count them."""
     crash = Scene(
@@ -643,6 +647,7 @@ def test_a_touch_that_was_ahead_and_slow_is_looked_for_again_after_another_impac
         assert run.rest["A"].x < run.rest["B"].x < run.rest["C"].x
 
 
+@pytest.mark.slow
 def test_what_is_said_of_a_scene_is_in_the_units_of_its_vehicles() -> None:
     """Distances and closing speeds of refusals and findings, in feet and mph where these were
     given.
@@ -813,6 +818,7 @@ def test_an_impact_that_gains_energy_is_said_wherever_the_run_is_shown() -> None
     assert not [one for one in good.findings if one.code == "energy_gain"]
 
 
+@pytest.mark.slow
 def test_the_status_of_an_impact_is_empty_in_cases_without_it() -> None:
     """B is reached in the second case alone."""
     rule: dict[str, Any] = {"restitution": 0.1, "friction": 0.5, "at": "touch"}

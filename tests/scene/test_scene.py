@@ -86,6 +86,7 @@ def rolled(
         found.append((i, clock))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("speeds", "gaps", "e"),
     [
@@ -112,12 +113,14 @@ def test_three_cars_in_line_collide_in_the_order_and_at_the_times_of_closed_form
         assert math.isclose(time, clock, rel_tol=1e-9)
 
 
+@pytest.mark.slow
 def test_a_cradle_hands_its_speed_to_the_last_car() -> None:
     run = row([1000.0] * 4, [10.0, 0.0, 0.0, 0.0], [1.0, 0.5, 0.25], 1.0).run()
     speeds = [vehicle.vx for vehicle in run.at(10.0).values()]
     assert speeds == pytest.approx([0.0, 0.0, 0.0, 10.0], abs=1e-12)
 
 
+@pytest.mark.slow
 def test_cars_that_stand_bumper_to_bumper_are_struck_one_after_another() -> None:
     run = row([1000.0] * 3, [10.0, 0.0, 0.0], [1.0, 0.0], 1.0).run()
     assert run.pairs == (("A", "B"), ("B", "C"))
@@ -125,6 +128,7 @@ def test_cars_that_stand_bumper_to_bumper_are_struck_one_after_another() -> None
     assert run.times[1] == run.times[0]
 
 
+@pytest.mark.slow
 def test_a_plastic_row_is_pushed_on_at_once() -> None:
     # A takes B along; B is stopped by C, and A pushes again though it never parted from B.
     run = row([1000.0, 1000.0, 9000.0], [10.0, 0.0, 0.0], [1.0, 2.0], 0.0).run()

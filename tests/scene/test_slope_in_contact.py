@@ -35,6 +35,7 @@ def in_line(slope: tuple[Any, Any], *, touch: bool = True, **given: Any) -> Scen
     return Scene(movers=movers, contacts=[contact], slope=slope)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rise", [0.1, -0.2])
 def test_a_spring_between_two_on_a_slope(rise: float) -> None:
     """Two blocks on a line that rises, with a spring between them that gives all back, by scipy:
@@ -118,6 +119,7 @@ def test_what_nothing_slows_is_not_pulled() -> None:
     assert bare.at(0.0)["A"].vx == bare.impacts[0].a.after.vx
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rise", [-0.12, 0.06])
 def test_what_a_contact_takes_from_what_the_slope_adds(rise: float) -> None:
     """Of two that push each other apart by a spring only the first is pulled. By scipy: the force

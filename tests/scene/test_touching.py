@@ -270,6 +270,7 @@ def test_a_pair_that_parts_first_is_taken_at_its_deepest():
     assert due[0] == pytest.approx(1.0 / 3.0, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_a_depth_is_counted_along_the_normal():
     """Not along the direction in which the pair is about to part."""
     due, parted, _ = engaged(evenly(*PASSING), along_x, np.zeros(1), CASE, None, np.full(1, 0.45))

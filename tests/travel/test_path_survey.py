@@ -114,6 +114,7 @@ def test_the_error_of_a_line_through_two_points_in_closed_form():
     assert run.yaw_rate_error == pytest.approx(run.yaw_rate * relative, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_a_parabola_is_found_whatever_the_window():
     """Flat, so that its arc is its x but for slope**2 / 2 = 2e-5; in map coordinates, whose grid is
     1e-9 m, too.
@@ -161,6 +162,7 @@ def test_a_warning_of_a_batch_is_of_its_own_cases():
     assert 0 < counted["fast_yaw"] < 512
 
 
+@pytest.mark.slow
 def test_windows_and_errors_of_a_batch(body):
     """Arrays of windows and errors: each case as alone; refused ones are NaN, and their neighbours
     stay.

@@ -340,6 +340,7 @@ def test_an_independent_integration_comes_to_the_same_rest(number):
     assert path.time[-1] == pytest.approx(time, rel=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("lock", "rotating"), [(0.1, 0.03), (0.6, 0.08)])
 def test_wheels_that_turn_lengthen_a_straight_run_by_what_they_weigh(lock, rotating):
     """Their energy is that of so much more mass, which the brakes take too; locked wheels have
@@ -413,6 +414,7 @@ def test_a_car_that_nothing_slows_is_followed_until_a_time_and_has_no_rest():
         assert "end.x=" in repr(stopped)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CASES)
 def test_until_a_time_is_the_beginning_of_the_whole(name):
     """At the time where it is left, and before; a later time changes nothing."""

@@ -878,6 +878,7 @@ def test_a_body_integrated_forward_is_found_backward(lock):
     assert np.all(fine < [3.3e-3, 1.1e-4, 1e-3, 4.8e-4]), errors
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("locks", "yaw_rate"),
     [([1.0, 0.05, 0.05, 0.05], 3.0), ([0.5, 0.1, 0.5, 0.1], -2.0), ([0.6, 0.6, 0.1, 0.1], 1.0)],

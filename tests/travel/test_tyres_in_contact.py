@@ -414,6 +414,7 @@ def test_the_impulse_of_locked_wheels_by_hand():
     assert caught.value.code == "separating"
 
 
+@pytest.mark.slow
 def test_tyres_hardly_turn_a_vehicle_round_that_the_contact_leaves_turning():
     """A car that turns slowly on locked wheels is hit at its end, along a line through its centre:
     in the contact in time its wheels stop it, and as an impulse they take energy.
@@ -707,6 +708,7 @@ def test_the_wheels_of_a_car_that_is_pushed_aside_drag_along_its_course_at_three
     assert found == pytest.approx(exact, rel=0.02)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", ["brach", "stronge"])
 def test_the_period_of_deformation_has_the_tyres_of_the_whole_contact(law):
     """What the tyres gave, given as impulses from outside: every part of the contact is the same,

@@ -540,6 +540,7 @@ def test_the_standard_error_of_a_mean_direction_knows_where_the_circle_was_cut()
     assert math.sqrt(np.mean(np.square(away))) == pytest.approx(wanted, rel=0.6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(6))
 def test_the_mean_direction_has_the_least_mean_square_of_the_way_to_it(seed):
     """By trying 20,000 directions on a few dozen that lie anyhow: none is better than the mean by

@@ -28,6 +28,7 @@ from uncertain_scenes import SCENES, chain
 # Nothing but intervals
 
 
+@pytest.mark.slow
 def test_monotone_bounds_are_exact_to_the_bit():
     """The speed before a skid rises with drag and length and falls with nothing: both ends are the
     model at two corners.
@@ -403,6 +404,7 @@ def test_bounds_contain_every_truth(method):
     )
 
 
+@pytest.mark.slow
 def test_figures_of_bounds():
     """Pairs with their units, errors that are the largest there are, and no share of a variance
     that nobody stated.

@@ -307,6 +307,7 @@ def test_a_condition_that_they_leave_open_is_refused(condition, share):
             assert undecided / 1024 == pytest.approx(share, abs=3e-3)
 
 
+@pytest.mark.slow
 def test_two_outputs_known_from_one_side_are_not_compared():
     """The first is larger at all bounds; each may lie anywhere above."""
 

@@ -126,6 +126,7 @@ def test_conditions_that_are_none_are_refused(condition):
         assert caught.value.code == "bad_condition"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("inputs", "method", "text"),
     [

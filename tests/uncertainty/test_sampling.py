@@ -244,6 +244,7 @@ def test_correlated_and_joint_inputs_change_no_bit_either(monkeypatch):
     assert run(1) == run(3) == whole
 
 
+@pytest.mark.slow
 @every_method
 def test_a_tolerance_ends_where_so_many_samples_do(method):
     """To the bit; and the errors are below it, as they were not at half as many."""
@@ -261,6 +262,7 @@ def test_a_tolerance_ends_where_so_many_samples_do(method):
     assert worst(found["delta_v"]) <= wanted < worst(half["delta_v"])
 
 
+@pytest.mark.slow
 @every_method
 def test_seeds(method):
     """Another seed draws other cases; without one, the one that was used is stated and draws the

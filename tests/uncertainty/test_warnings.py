@@ -661,6 +661,7 @@ def test_bounds_alone_state_the_warnings_too():
     assert len([one for one in caught if one.message.code == "energy_gain"]) == 1
 
 
+@pytest.mark.slow
 def test_a_warning_of_an_interval_alone_is_counted_beside_a_distribution():
     """In the runs at its ends too, where it is the same number in all cases."""
     asked = []
@@ -1080,6 +1081,7 @@ def test_bare_lengths_and_times_of_a_contact_are_suspected():
         impact.b.recorded("40 ms", forward="400 m")
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
 def test_a_fit_looks_along_what_is_known_together_too():
     """Each speed is known to 5 mph, and their difference, which the formula takes, much better."""

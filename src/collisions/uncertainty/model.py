@@ -189,7 +189,7 @@ def scene_among(*models: Any) -> Any:
     """The first of some models, if it is one with many inputs and outputs by name, such as a
     ``Scene``; None if it is a function.
     """
-    first = next(one for one in models if one is not None)
+    first = next((one for one in models if one is not None), None)
     return first if hasattr(first, "as_model") else None
 
 
