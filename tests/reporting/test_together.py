@@ -291,7 +291,7 @@ def test_what_an_instant_leaves_out_stands_beside_the_ranges(found, run):
     share = max(estimate.a.tyre_share, estimate.b.tyre_share)
     what = "Impact 1 was found as an instant: of delta-V that leaves out about"
     assert f"{what} {100.0 * share:.0f} percent for tyres" in said
-    assert "assumed, not given" in said
+    assert "taken for this estimate" in said
 
 
 def leaning() -> Scene:
