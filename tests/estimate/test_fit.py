@@ -1379,7 +1379,7 @@ def test_evidence_that_agrees_is_not_handed_on():
         linear([[1.0, 1.0]]), found.inputs, seed=1, samples=64, correlation=found.correlation
     )
     rho = found.correlation["x", "y"]
-    assert result.statements == (f"correlation of the inputs as stated: x and y {rho:g}",)
+    assert result.statements == (f"correlation of the inputs as stated: x and y {rho:.15g}",)
 
 
 def test_a_unit_that_begins_with_1_comes_back():

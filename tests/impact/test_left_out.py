@@ -17,7 +17,8 @@ import pint
 import pytest
 
 import collisions as col
-from collisions.impact.left_out import LeftOut, LeftOutVehicle
+from collisions.impact.impact import solve_changed
+from collisions.impact.left_out import LeftOut, LeftOutVehicle, _tyres_as_pushes
 from collisions.travel import GRAVITY, Tyres
 from scripts import benchmarks
 from strategies import other_registry
@@ -512,6 +513,38 @@ def test_nor_does_it_with_tyres_in_the_impact(law, geometry):
                 getattr(found.b, name), rel=1e-8, abs=1e-10
             ), name
         assert found.a.geometry_delta_v > 1e-4
+
+
+@pytest.mark.parametrize("law", ["brach", "stronge"])
+@pytest.mark.parametrize("label", ["a", "b"])
+@pytest.mark.parametrize("other", ["car", "wall", "pinned"])
+def test_tyres_of_one_vehicle_stay_where_the_geometry_moves(law, label, other):
+    """The impact solved again has them: as the duration goes to 0, so does what motion does."""
+    car = col.Vehicle(mass=2000, yaw_inertia=3500, x=-2.0, y=0.2, heading=0.0, vx=9.0)
+    struck = {
+        "car": col.Vehicle(mass=1300, yaw_inertia=2000, x=0.8, y=-0.6, heading=math.pi / 2, vy=7.0),
+        "wall": col.Vehicle.barrier(),
+        "pinned": col.Vehicle(mass=1300, yaw_inertia=2000, x=0.8, y=-0.6, pivot=(1.5, 0.5)),
+    }[other]
+    if label == "b" and other != "car":
+        return
+    rest = {"normal": 0.0, "point": (0.0, 0.0), "friction": 0.5, "law": law, "duration": 0.1}
+    wheels, none = Tyres(0.7, 0.3, 2.6, 1.5), Tyres(1e-12, 0.3, 2.6, 1.5)
+    own = {f"tyres_{label}": wheels}
+    impact = col.eccentric(car, struck, 0.05, **rest, **own)
+    again = solve_changed(impact, **_tyres_as_pushes(impact))
+    for name in ("delta_vx", "delta_vy", "delta_yaw_rate"):
+        for side in "ab":
+            now, was = (getattr(getattr(one, side), name) for one in (again, impact))
+            assert now == pytest.approx(was, rel=1e-9, abs=1e-10)
+    if other == "car":
+        beside = {f"tyres_{'b' if label == 'a' else 'a'}": none}
+        with_none = col.eccentric(car, struck, 0.05, **rest, **own, **beside)
+        for side in "ab":
+            alone, both = (getattr(col.left_out(one), side) for one in (impact, with_none))
+            assert alone.geometry_delta_v == pytest.approx(both.geometry_delta_v, rel=1e-6)
+    short = col.left_out(impact, duration=1e-6)
+    assert short.a.geometry_delta_v < 1e-4
 
 
 @pytest.mark.parametrize("law", ["brach", "kudlich-slibar"])

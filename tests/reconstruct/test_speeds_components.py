@@ -885,7 +885,7 @@ def test_without_friction_an_energy_tells_no_slip(rule, beside, more):
     one = col.eccentric(a, b, 0.1, **contact)
     faster = a.replace(vx=15.0 + 9.0 * math.tan(0.1))
     other = col.eccentric(faster, b.replace(vy=11.0), 0.1, **contact)
-    known = {"delta_v_forward_a": one.a.delta_v_forward, "delta_v_left_a": one.a.delta_v_left}
+    known = recorded_of(one.a)
     known |= dict(zip(("ees_a", "ees_b"), one.ees(0.5), strict=True)) if beside == "ees" else {}
     known |= {"energy_loss": one.energy_loss} if beside == "energy_loss" else {}
     assert other.a.delta_v_forward == pytest.approx(one.a.delta_v_forward, rel=1e-12)
@@ -928,6 +928,11 @@ def test_the_condition_where_a_contact_just_stuck_is_that_of_one_that_slid():
 
 
 @pytest.mark.slow
+def recorded_of(side):
+    """Both components of delta-V of A, as its recorder has them."""
+    return {"delta_v_forward_a": side.delta_v_forward, "delta_v_left_a": side.delta_v_left}
+
+
 def test_with_hardly_any_friction_an_energy_leaves_both():
     """A contact that stuck and one that slid lose the same to four digits."""
     contact = {"normal": 0.1, "point": (0.0, 0.1), "friction": 1e-6}
@@ -935,15 +940,23 @@ def test_with_hardly_any_friction_an_energy_leaves_both():
     b = B.replace(x=0.8, y=-0.3, heading=math.pi / 2, vy=2.0)
     true = col.eccentric(a, b, 0.1, **contact)
     given = {"course_a": 0.0, "course_b": math.pi / 2, "restitution": 0.1, **contact}
-    known = {"delta_v_forward_a": true.a.delta_v_forward, "delta_v_left_a": true.a.delta_v_left}
+    known = recorded_of(true.a)
     with pytest.raises(col.AmbiguousSolutionError) as either:
         speeds(a, b, **given, **known, energy_loss=true.energy_loss)
     found = [(one.a.before.speed, one.b.before.speed) for one in either.value.solutions]
     assert any(pair == pytest.approx((15.0, 2.0), abs=1e-3) for pair in found)
+    with pytest.raises(col.AmbiguousSolutionError, match="If it stuck, the speed of A is") as both:
+        speeds(a, b, **given, **known, energy_loss=true.energy_loss, slid="bound")
+    assert len(both.value.solutions) == len(either.value.solutions)
+    # With a known speed it is the other speed that stays open.
+    across = {**contact, "friction": 0.0, "normal": 0.0}
+    hit = col.eccentric(a, b, 0.1, **across).a
+    with pytest.raises(col.NoSolutionError, match="give the speed of the other vehicle"):
+        speeds(a, b, **given | across, speed_a=15.0, **recorded_of(hit))
     # With a hundredth the energy of the slip shows, and decides.
     contact["friction"] = 0.01
     true = col.eccentric(a, b, 0.1, **contact)
-    known = {"delta_v_forward_a": true.a.delta_v_forward, "delta_v_left_a": true.a.delta_v_left}
+    known = recorded_of(true.a)
     (only,) = speeds(a, b, **given | contact, **known, energy_loss=true.energy_loss)
     assert (only.a.before.speed, only.b.before.speed) == pytest.approx((15.0, 2.0), rel=1e-9)
 

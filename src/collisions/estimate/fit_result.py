@@ -593,7 +593,8 @@ def agreement(
     )
     chance = f"a misfit this large or larger has a chance of {text}"
     if p_value >= _WEAK:
-        whom = "itself and the priors" if apart else "itself"
+        with_priors = apart or any(one.is_prior for one in residuals.values())
+        whom = "itself and the priors" if with_priors else "itself"
         return Note(None, f"the evidence agrees with {whom}: {chance}", code=AGREES)
     if p_value >= CONTRADICTION:
         return Note(

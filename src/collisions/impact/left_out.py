@@ -229,14 +229,17 @@ def _tyres_as_pushes(impact: Impact) -> dict[str, Any]:
     if not inputs.tyres:
         return {}
     takes = _takes_tyres(impact)
+    # Of both, as an impulse on one alone is none.
     pushes = {}
-    for label in inputs.tyres:
-        side = getattr(impact, label)
-        did = side.tyre_impulse_x, side.tyre_impulse_y, side.tyre_moment
-        given = getattr(inputs, f"outside_{label}") or (0.0, 0.0, 0.0)
-        pushes[f"outside_{label}"] = tuple(
-            push + select(takes, part, 0.0) for push, part in zip(given, did, strict=True)
-        )
+    for label in "ab":
+        push = getattr(inputs, f"outside_{label}") or (0.0, 0.0, 0.0)
+        if label in inputs.tyres:
+            side = getattr(impact, label)
+            did = side.tyre_impulse_x, side.tyre_impulse_y, side.tyre_moment
+            push = tuple(
+                one + select(takes, part, 0.0) for one, part in zip(push, did, strict=True)
+            )
+        pushes[f"outside_{label}"] = push
     return {"tyres_a": None, "tyres_b": None, "duration": None, **pushes}
 
 

@@ -87,11 +87,13 @@ def answers_of(
     ]
     faults += [(of_wall, Status.INFINITE_MASS) for of_wall in of_walls]
     if not scene.kinds[0].startswith("speed"):
-        # However the evidence is told, speeds along one line show as their difference alone.
+        # However the evidence is told, speeds along one line show as their difference alone; what
+        # tyres add to that is less than what anything is known to.
         (ax, ay), (bx, by) = (
             [scene.numbers[f"course_{label}[{i}]"] for i in range(2)] for label in "ab"
         )
-        faults.append((abs(ax * by - ay * bx) <= 8.0 * EPS, Status.PARALLEL_HEADINGS))
+        parallel = abs(ax * by - ay * bx) <= 8.0 * EPS
+        faults.append((parallel, Status.PARALLEL_HEADINGS))
     faults.append((scene.undetermined, Status.UNDETERMINED))
     faults.append((scene.ambiguous, Status.AMBIGUOUS))
     staying = [
@@ -191,7 +193,10 @@ def answers_of(
             "backwards along its course; check the courses, and the normal, which must point "
             "from A into B"
         )
-        if isinstance(scene, ComponentScene) and scene.slid:
+        sides = [
+            impact.reconstruction.one_sided or {} for impact in impacts if impact.reconstruction
+        ]
+        if any(np.any(side) for one in sides for side in one.values()):
             cure += "; the bound is of cars that go so, and says nothing of those that go forwards"
         text = (
             f"the speed of {whose} came out as {said(backward, 'speed', given_texts(impacts[0]))}: "
@@ -425,7 +430,7 @@ def _either_beside_an_energy(
         answers.append(())
         with suppress(CollisionsError):
             # One may fit with more energy alone.
-            answers[-1] = again(**changes)
+            answers[-1] = again(**changes, slid=None)
     told = [
         ", or ".join(
             _alone([_along(impact, label, scene) for label in "ab"], say) for impact in impacts
@@ -543,8 +548,8 @@ def _refusal(
         )
     elif status == Status.PARALLEL_HEADINGS:
         text = (
-            f"the courses are parallel, so {names} tell of the closing speed alone; give one of "
-            "the speeds"
+            f"the courses are parallel, so {names} tell of the closing speed "
+            f"{'all but ' if search.inputs.tyres else ''}alone; give one of the speeds"
         )
     elif isinstance(scene, ComponentScene) and status == Status.UNDETERMINED:
         text = (
@@ -552,7 +557,7 @@ def _refusal(
             "repeats the friction, which leaves the slip undetermined; give "
             + ("the speed of the other vehicle" if speed_is_known else "one of the speeds")
         )
-        if not scene.bound:
+        if not scene.bound and not speed_is_known:
             text = (
                 f"without friction {names} tell of the closing speed alone, whatever the slip; "
                 "give one of the speeds"

@@ -382,7 +382,9 @@ def _answer_together(
         if (left := neglected(part.result, of_scene=True)) is not None:
             what, _, _ = left.sentence.partition(";")
             sheet.say(
-                plain(f"Impact {own.number + 1} was {what} ({left.assumed} taken for this estimate).")
+                plain(
+                    f"Impact {own.number + 1} was {what} ({left.assumed} taken for this estimate)."
+                )
             )
     lines = list(warned_of(found, asked or found.found, parts[together.part - 1].spread.named))
     judged = [one for part in parts for one in _numbered_findings(part) if not is_note(one)]

@@ -132,7 +132,7 @@ class Joint:
     def notes(self) -> tuple[Note, ...]:
         """How the inputs go together as stated: without it nobody gets the same range again."""
         stated = [
-            f"{one} and {other} {rho:g}"
+            f"{one} and {other} {rho:.15g}"
             for one, other in combinations(self.inputs, 2)
             if (rho := self._pairs.get(frozenset((one, other)), 0.0))
         ]
