@@ -293,6 +293,14 @@ def test_a_report_lists_no_place_that_nobody_gave():
     assert "drag of B while the contact lasts" in given
     for word in ("position", "contact point", "inertia", "friction", "law of restitution"):
         assert word not in given, word
+    assert "heading" not in given
+    for drag in ({"duration": 0.1, "drag_b": 0.7}, {}):
+        headed = reconstruct.central(
+            1500.0, 1200.0, va=15.0, vb=0.0, restitution=0.2, heading_a="180 deg", **drag
+        )
+        page = str(col.report(headed, form="markdown", notes={"a.heading": "it drove backwards"}))
+        assert "180°. it drove backwards" in page.split("## Inputs")[1].split("## ")[0]
+        assert "| A | heading | 180" in str(col.explain(headed))
 
 
 def test_a_barrier_is_not_slowed():

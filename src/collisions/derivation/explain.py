@@ -327,7 +327,7 @@ def _impact(page: Page, impact: Impact) -> None:
     page.table(impact_answers(page, impact))
 
 
-_PLACES = ("yaw_inertia", "x", "y", "heading", "yaw_rate")
+_PLACES = ("yaw_inertia", "x", "y", "yaw_rate")
 
 
 def impact_inputs(

@@ -305,8 +305,8 @@ def _check_same_scene(found: Posterior | Fit, run: Run) -> None:
         kind = type(found).__name__.lower()
         raise InputError(
             f"impact has a {kind} and a run of another scene: {path} differs, which that {kind} "
-            f"did not find; give a run of the scene that it was given, such as "
-            "`scene.replace({...}).run()` with the unknowns alone",
+            "did not find; give a run of the scene that it was given, or of that of `finer=`, such "
+            "as `scene.replace({...}).run()` with the unknowns alone",
             code="bad_combination",
             argument="impact",
         )
