@@ -22,7 +22,7 @@ from collisions.travel import Tyres
 RULE = {"at": "touch", "restitution": 0.15, "friction": 0.5}
 # So many times ten scenes against an independent integration, which takes its time:
 # COLLISIONS_SCENES=30 has 300 of them.
-GROUPS = int(os.environ.get("COLLISIONS_SCENES", "10"))
+GROUPS = int(os.environ.get("COLLISIONS_SCENES", "5"))
 
 
 def car(rng: random.Random, place: tuple[float, float], toward: tuple[float, float]) -> Mover:

@@ -325,7 +325,7 @@ def scene(number):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("number", range(90))
+@pytest.mark.parametrize("number", range(60))
 def test_an_independent_integration_comes_to_the_same_rest(number):
     """scipy's method in another variable, by angles, wheel by wheel: the promised place and
     heading, for 300 random scenes.
