@@ -349,6 +349,20 @@ def test_evidence_stands_beside_what_follows():
 
 
 @pytest.mark.slow
+def test_what_is_stated_of_an_impact_found_backwards_is_on_the_page():
+    """In words, without the marks of code."""
+    a = col.Vehicle(mass=1600, yaw_inertia=2700, x=-2.3, y=0.2, heading=0.0)
+    b = col.Vehicle(mass=1250, yaw_inertia=1850, x=0.9, y=-0.6, heading=1.5)
+    (found,) = col.reconstruct.speeds(
+        a, b, course_a=0.0, course_b=1.5, restitution=0.1, normal=0.0, point=(0.0, 0.1),
+        friction=0.5, speed_b=9.0, delta_v_a=7.4,
+    )  # fmt: skip
+    page = what_if(found, {"friction": (0.3, 0.7)})
+    (said,) = re.findall(r"<p>(Found as an instant: .*?)</p>", page)
+    assert said.endswith("give duration= and tyres_a=, tyres_b=.")
+
+
+@pytest.mark.slow
 def test_what_an_impact_was_found_from_is_its_evidence():
     known = {"course_a": "0 deg", "course_b": "90 deg", "speed_b": "40 km/h"}
     known["delta_v_a"] = f"{3.6 * IMPACT.a.delta_v!r} km/h"

@@ -21,6 +21,7 @@ from ..impact.models import BY_NAME, CANDIDATES, MODELS
 from ..impact.reconstruction import KNOWN
 from ..kernels.contact_laws import RULES
 from ..kernels.elementwise import FINITE, NOT_NEGATIVE, POSITIVE, restitution_domain
+from ..messages import marked
 from ..messages.errors import InputError, Status
 from ..messages.hints import hinted, parted
 from ..plot.canvas import who
@@ -582,7 +583,8 @@ def _written(
         for what, texts in _fixed(impact, sliders, system)
     ]
     text = _PAGE.read_text(encoding="utf-8")
-    stated = (*impact._bounds(system), *(plain(as_sentence(one)) for one in impact.statements))
+    statements = (plain(marked.plain(as_sentence(one))) for one in impact.statements)
+    stated = (*impact._bounds(system), *statements)
     said = "".join(f"<p>{escape(typeset(one))}</p>" for one in stated)
     heading = (
         "As given, not moved" if impact.reconstruction is None else "Given or found, not moved"
