@@ -15,6 +15,7 @@ import collisions as col
 import scenes
 from collisions import reconstruct
 from collisions.derivation import contact, explain, models, page, symbols
+from collisions.derivation.expressions import System
 from collisions.diagnostics import diagnose
 from collisions.impact.impact import build
 from collisions.travel import Tyres
@@ -331,3 +332,22 @@ def test_a_divisor_that_is_all_rounding_is_no_contradiction():
     )
     assert impact.normal_impulse > 1e60
     assert "In this form the numbers cancel" in explain(impact)
+
+
+@pytest.mark.parametrize("form", ["text", "markdown"])
+def test_a_symbol_stands_for_one_thing(form):
+    """A page on which one symbol has two values is refused; the impulses of a pivot and from
+    outside, and the work of compression with these and without, have symbols of their own.
+    """
+    sheet = page.Page(System("si"), form == "markdown", {}, {})
+    one, other = (symbols.Symbol("E_c", value, "energy") for value in (500.0, 501.0))
+    sheet.shown(one)
+    with pytest.raises(col.InternalError, match="E_c stands for 500 and for 501"):
+        sheet.equation("Energy", symbols.Symbol("E", 501.0, "energy"), other)
+    a = col.Vehicle(mass=1500, yaw_inertia=2500, vx=11, vy=1, x=-2, y=-0.2, heading=0.1)
+    b = col.Vehicle(mass=1300, yaw_inertia=2200, x=2, y=0.8, heading=1.4)
+    contact = {"normal": 0.05, "point": (0, 0), "friction": 0.4, "outside_b": (300, -700, 20)}
+    pinned = col.eccentric(a, b.replace(pivot=(3, 1)), 0.3, **contact)
+    assert ("R_{Bx}" if form == "markdown" else "R_Bx") in str(col.explain(pinned, form=form))
+    compressed = col.eccentric(a, b, 0.3, law="stronge", **contact)
+    assert "W_c" in str(col.explain(compressed, form=form))

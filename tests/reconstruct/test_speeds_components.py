@@ -2,6 +2,7 @@
 folds of the magnitude.
 """
 
+import json
 import math
 import pickle
 import warnings
@@ -423,8 +424,9 @@ def test_forward_only_leaves_backward_roots_out():
     with pytest.warns(col.OutOfRangeWarning, match="backwards along its course"):
         (found,) = speeds(A, B, **given, **known)
     assert found.b.before.vx == pytest.approx(-5.0, rel=1e-12)
-    with pytest.raises(col.NoSolutionError, match="none of them backwards, fit speed_a"):
+    with pytest.raises(col.NoSolutionError, match="a vehicle goes backwards along its") as told:
         speeds(A, B, **given, **known, forward_only=True)
+    assert "B would go backwards along its course at 5 m/s" in str(told.value)
     fold = fold_scene()
     with pytest.warns(col.OutOfRangeWarning, match="backwards"):
         assert len(fold(40.0)) == 2
@@ -438,6 +440,50 @@ def test_forward_only_leaves_backward_roots_out():
         [first.b.before.speed[0], second.b.before.speed[1]]
     )
     assert np.isnan(rest.b.before.speed).tolist() == [False, True]
+
+
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+def test_forward_only_is_said_and_warns_of_samples_of_two_answers():
+    """Where the lower answer goes backwards in some samples alone, the first answer is the lower
+    one here and the upper one there; the record and every page say that answers were left out.
+    """
+    fold = fold_scene()
+
+    def codes(mean, sd, forward_only=True):
+        got = uncertainty.propagate(
+            lambda delta_v: {"b": fold(delta_v, forward_only=forward_only)[0].speed_b},
+            {"delta_v": uncertainty.Normal(mean, sd)},
+            samples=64,
+            seed=1,
+        )
+        return " ".join(got.statements)
+
+    left = "backwards along its course was left out"
+    mixed, ahead, none = codes(29.5, 0.6), codes(40.0, 0.5), codes(36.0, 0.5, forward_only=False)
+    assert "takes the other: the samples are no range of one answer" in mixed
+    assert left in mixed
+    assert left in ahead
+    assert left not in none
+    assert "no range" not in ahead + none
+    (one,) = fold(40.0, forward_only=True)
+    said = "answers in which a vehicle goes backwards along its course were left out"
+    assert any(said in line for line in one.statements)
+    assert said.capitalize() in str(one.summary())
+    again = col.Impact.from_dict(json.loads(json.dumps(one.to_dict())))
+    assert again.reconstruction.forward_only
+    for page in (col.explain(again), col.report(again)):
+        assert said.capitalize() in str(page)
+    altered = one.to_dict()
+    altered["reconstruction"]["forward_only"] = False
+    with pytest.raises(col.InputError, match="2 answers, and it says 1"):
+        col.report(col.Impact.from_dict(altered))
+    with pytest.raises(col.NoSolutionError, match=r"leaves those out: .*B would go backwards"):
+        uncertainty.propagate(
+            lambda delta_v: {"b": fold(delta_v, forward_only=True)[0].speed_b},
+            {"delta_v": uncertainty.Normal(120.0, 0.5)},
+            samples=64,
+            seed=1,
+        )
 
 
 def fold_scene():

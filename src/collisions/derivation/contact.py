@@ -227,7 +227,9 @@ def _until_slip_stops(page: Page, s: Symbols, k: Mobility) -> Expression | None:
         before = first + w / soft_2
     else:
         worked, before = g.squared() / (2.0 * soft), g / soft
-    work = page.let("Work of compression along the normal", "E_c", "energy", worked)
+    # With impulses from outside it is not the energy absorbed at the end of compression.
+    name = "E_c" if k.push[0] is ZERO else "W_c"
+    work = page.let("Work of compression along the normal", name, "energy", worked)
     if w.value > 0.0 and e.value * math.sqrt(2.0 * soft_2.value * work.value) <= -w.value:
         page.say(
             "Of that work so much is still to be done when the contact ends that the slip has "

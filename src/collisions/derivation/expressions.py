@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from decimal import ROUND_HALF_UP, Context, Decimal
 from functools import cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ..kernels.status import EPS
 from ..quantities.formatting import Numbers, decimals_of, places, with_decimals
@@ -153,7 +153,7 @@ class Pen:
 
     Numbers are written with ``more`` figures than the working promises; ``marked`` angles carry
     their own degree sign. ``conversions`` takes down each number that converts units, with the
-    units that it stands between.
+    units that it stands between, and ``named`` each symbol that is written as such.
     """
 
     latex: bool
@@ -161,6 +161,7 @@ class Pen:
     more: int = 0
     marked: bool = False
     conversions: list[tuple[str, str, str]] = field(default_factory=list)
+    named: list[Any] = field(default_factory=list)
 
 
 class Written(NamedTuple):

@@ -504,7 +504,7 @@ def _turned_about_pivot(page: Page, body: Lever, s: Symbols) -> None:
             -body.sign, s.impulse(axis)
         )
         found = found if body.outside is None else found - body.pushed(axis)
-        symbol = Symbol(rf"J_{{{label}{axis}}}", value, "impulse")
+        symbol = Symbol(rf"R_{{{label}{axis}}}", value, "impulse")
         page.equation(f"Impulse of the pivot on {label}, along {axis}", symbol, found)
 
 

@@ -45,6 +45,7 @@ class Page:
         self.answered: list[str] = []  # names of the answers written so far
         self.conversions: dict[tuple[str, str], str] = {}
         self._deeper = False
+        self._values: dict[str, float] = {}  # of each symbol that was written
 
     def title(self, text: str) -> None:
         """The heading of the page."""
@@ -59,12 +60,14 @@ class Page:
 
     @contextmanager
     def one_level_down(self) -> Iterator[None]:
-        """What is written meanwhile has its headings one level below that of a part."""
-        self._deeper = True
+        """What is written meanwhile has its headings one level below that of a part, and symbols of
+        its own.
+        """
+        self._deeper, outer, self._values = True, self._values, {}
         try:
             yield
         finally:
-            self._deeper = False
+            self._deeper, self._values = False, outer
 
     def say(self, text: str) -> None:
         """Write one or more sentences."""
@@ -94,7 +97,18 @@ class Page:
 
     def symbol(self, symbol: Symbol) -> str:
         """A symbol within a sentence."""
+        self._stands_for_one(symbol)
         return f"${symbol.latex}$" if self.latex else symbol.text
+
+    def _stands_for_one(self, symbol: Symbol) -> None:
+        """Refuse a symbol that stands for another value elsewhere on the page."""
+        name = symbol.latex if self.latex else symbol.text
+        value = self._values.setdefault(name, symbol.value)
+        apart = abs(value - symbol.value)
+        size = max(symbol.size, abs(value))
+        if value != symbol.value and apart > _WRONG * size and not is_zero(apart, symbol.kind):
+            what = f"{name} stands for {value:.6g} and for {symbol.value:.6g}, in SI"
+            raise _defect(what, what, apart / size)
 
     def _unit(self, kind: str) -> str:
         """The unit behind a number, with the space before it."""
@@ -286,8 +300,12 @@ class Page:
             self.stress(difference)
 
     def _in_symbols(self, formula: Expression) -> str:
+        pen = Pen(self.latex)
         with localcontext(CALCULATOR):
-            return formula.write(Pen(self.latex)).text
+            text = formula.write(pen).text
+        for symbol in pen.named:
+            self._stands_for_one(symbol)
+        return text
 
     def _in_numbers(
         self, sides: Sequence[tuple[Expression, float]], kind: str, size: float

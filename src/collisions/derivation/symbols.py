@@ -51,6 +51,7 @@ class Symbol(Expression):
 
     def write(self, pen: Pen) -> Written:
         if pen.system is None:
+            pen.named.append(self)
             return Written(self.latex if pen.latex else self.text, ATOM)
         printed = pen.system.working(self.value, self.kind, pen.more)
         rank = SUM if printed.startswith("-") else ATOM

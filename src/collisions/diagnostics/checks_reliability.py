@@ -8,13 +8,21 @@ import math
 from collections.abc import Callable, Iterator
 from typing import Any
 
+from ..impact.doubts import (
+    BACKWARDS,
+    MAY_SLIDE,
+    NEARLY_COLLINEAR,
+    angle_of_courses,
+    from_components,
+    speeds_along,
+    taken_to_stick,
+)
 from ..impact.impact import Impact, answer_of
 from ..impact.inputs import PLACED
 from ..impact.instant import neglected
 from ..impact.left_out import tyres_lacking
 from ..impact.reconstruction import (
     NOT_THIS,
-    Reconstruction,
     bounds_of,
     how_many,
     known_in_words,
@@ -25,7 +33,7 @@ from ..reconstruct.found_again import components_apart
 from ..reconstruct.momentum_tyres import lasts
 from ..reconstruct.momentum_tyres import neglected as momentum_neglect
 from ..reconstruct.momentum_tyres import tyres_lacking as momentum_lacking
-from ..reconstruct.speeds import if_it_slid, taken_to_stick
+from ..reconstruct.speeds import if_it_slid
 from ..reference import INTER_VEHICLE_FRICTION, RECORDER_ACCURACY
 from ..vehicle.drag import GRAVITY
 from .case import RATIO_ROUNDING, Case, ImpactCase, MomentumCase, off_by, plain
@@ -41,7 +49,7 @@ _ALL = 1e6
 @finding(
     "in a reconstruction of two speeds by momentum or from components of delta-V, angle between "
     "both courses, or to the opposite",
-    at_or_below(math.radians(10.0), "rad"),
+    at_or_below(NEARLY_COLLINEAR, "rad"),
     f"collinear impacts, {METHOD}",
 )
 def near_collinear(case: Case) -> Iterator[Measured]:
@@ -54,21 +62,14 @@ def near_collinear(case: Case) -> Iterator[Measured]:
         then = "across it, momentum tells little of these speeds"
     else:
         origin = case.answer.reconstruction
-        if origin is None or not _from_components(origin) or len(origin.found) < 2:
+        if origin is None or angle_of_courses(origin) is None:
             return
-        if not {"course_a", "course_b"} <= origin.given.keys():
-            return  # one that stands needs no course
         one, other = origin.given["course_a"], origin.given["course_b"]
         of = "course_a and course_b"
         then = "small errors of delta-V and of the courses move both speeds far"
     # Exactly ten degrees still count, even where rounding makes them more.
     angle = max(abs(math.remainder(one - other, math.pi)) - off_by(one, other, math.pi), 0.0)
     yield Measured(angle, f"{of} are {case.text(angle, 'angle')} from one line: {then}")
-
-
-def _from_components(origin: Reconstruction) -> bool:
-    """Whether an impact was found from components of delta-V."""
-    return any(name.startswith(("delta_v_forward", "delta_v_left")) for name in origin.known)
 
 
 @finding(
@@ -120,7 +121,7 @@ def not_unique(case: ImpactCase) -> Iterator[Measured]:
 
 @finding(
     "speed that was found, backwards along its course",
-    above(0.1, "m/s"),
+    above(BACKWARDS, "m/s"),
     "set here: 0.4 km/h, below what evidence shows",
 )
 def speed_backwards(case: Case) -> Iterator[Measured]:
@@ -128,14 +129,7 @@ def speed_backwards(case: Case) -> Iterator[Measured]:
         names = [name for name in case.answer.unknowns if name.startswith("speed")]
         along = {name: getattr(case.answer, name) for name in names}
     else:
-        origin = case.answer.reconstruction
-        given = {} if origin is None else origin.given
-        along = {}
-        for label, _, side in case.sides:
-            course = given.get(f"course_{label}")
-            if origin is not None and f"speed_{label}" in origin.found and course is not None:
-                c, s = math.cos(course), math.sin(course)
-                along[f"speed_{label}"] = side.before.vx * c + side.before.vy * s
+        along = speeds_along(case.answer)
     for name, speed in along.items():
         sentence = (
             f"{name} is {case.text(speed, 'speed')}, backwards along its course: check the courses"
@@ -450,7 +444,7 @@ def friction_low(case: ImpactCase) -> Iterator[Measured]:
 def may_slide(case: ImpactCase) -> Iterator[Measured]:
     impact, origin = case.answer, case.answer.reconstruction
     movable = math.isfinite(impact.a.before.mass) and math.isfinite(impact.b.before.mass)
-    if origin is not None and _from_components(origin):
+    if origin is not None and from_components(origin):
         stated = taken_to_stick(impact)
     else:
         stated = impact.friction == math.inf and movable
@@ -465,7 +459,7 @@ def may_slide(case: ImpactCase) -> Iterator[Measured]:
         then = " and ".join(bounds_of(slid.reconstruction.one_sided or {}, speeds)) or NOT_THIS
     sentence = (
         f"to stick, the contact needs an impulse ratio of {ratio:.2f}, and contacts between "
-        f"vehicles slide from {INTER_VEHICLE_FRICTION.low:g} on; if it slid, {then}"
+        f"vehicles slide from {MAY_SLIDE:g} on; if it slid, {then}"
     )
     yield Measured(ratio, sentence)
 
@@ -497,7 +491,7 @@ def one_sided(case: ImpactCase) -> Iterator[Measured]:
 )
 def components_differ(case: ImpactCase) -> Iterator[Measured]:
     origin = case.answer.reconstruction
-    if origin is None or not _from_components(origin):
+    if origin is None or not from_components(origin):
         return
     apart = components_apart(case.answer)
     yield Measured(*(apart or (0.0, "components of delta-V that were given agree")))

@@ -498,14 +498,17 @@ class Impact(_SpeedsBefore, Frozen, Summarized):
         instant, how much of delta-V that leaves out, as ``left_out`` estimates it, or without the
         tyres of one vehicle, how much these would change; of one that was found with tyres or from
         readings of recorders, that there may be others, and how much the motion during the contact
-        is; of one that was found from motions after in which the contact points still approach a
+        is; of speeds, that one is backwards, that the courses are near one line, that the contact
+        was taken to stick and may have slid, and of those forwards alone, that others were left
+        out; of one that was found from motions after in which the contact points still approach a
         little, that these were changed.
         """
+        from .doubts import doubts
         from .instant import found_backwards, neglected
 
         found = neglected(self)
         said = () if found is None else (found.sentence,)
-        return *said, *found_backwards(self)
+        return *said, *doubts(self), *found_backwards(self)
 
     @derived()
     def complete(self) -> Any:
@@ -875,7 +878,10 @@ class Impact(_SpeedsBefore, Frozen, Summarized):
             for label, side in (("a", self.a), ("b", self.b))
         }
         bounds = " and ".join(bounds_of(origin.one_sided or {}, speeds))
-        return (f"The contact slid, or may have: {bounds}.",)
+        return (
+            f"The contact slid, or may have: {bounds}. All other numbers are those of the least "
+            "slip.",
+        )
 
     def _texts(self) -> Iterable[Any]:
         return self.inputs.texts

@@ -48,6 +48,11 @@ LOOKED_AROUND = (
     "origins are looked for from those of an instant without tyres and from motions around them, "
     "as far as the tyres reach, and one that none of these leads to is missed"
 )
+# Of speeds that were asked for forwards alone.
+FORWARDS_ALONE = (
+    "answers in which a vehicle goes backwards along its course were left out, if there were any "
+    "(`forward_only=True`)"
+)
 # Of the closing speed: by no more do motions after differ that nothing changed.
 _ROUNDING = 1e-9
 # The reverse solvers that take a duration and tyres.
@@ -164,7 +169,14 @@ def found_backwards(impact: Impact) -> tuple[str, ...]:
     """What has to be said of how an impact was found backwards, beside what an instant leaves
     out.
     """
-    return *_motions_changed(impact), *_found_from_readings(impact), *_found_with_tyres(impact)
+    origin = impact.reconstruction
+    forwards = (FORWARDS_ALONE,) if origin is not None and origin.forward_only else ()
+    return (
+        *forwards,
+        *_motions_changed(impact),
+        *_found_from_readings(impact),
+        *_found_with_tyres(impact),
+    )
 
 
 def looked_for(known: Sequence[str]) -> str:

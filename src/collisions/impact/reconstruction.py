@@ -57,6 +57,9 @@ class Reconstruction:
         Of ``speeds(..., slid="bound")``: for "speed_a" and "speed_b" which way the truth may lie
         from the speed found, if the contact slid: +1 at least that speed, -1 at most, 0 where it is
         known both ways. A speed is a size here, also of a vehicle that goes backwards.
+    forward_only : bool
+        Of ``speeds``: whether answers in which a vehicle goes backwards along its course were left
+        out, as the caller asked. ``answers`` are those that were not.
     found : tuple of str
         What was found of the state before and of the contact, by name: "speed_a", "speed_b", and
         where they were sought "course_a", "yaw_rate_a", "restitution", "friction" and so on. In a
@@ -79,6 +82,7 @@ class Reconstruction:
     contact_velocity: tuple[Value, Value] | None = None
     regime: str | None = None
     one_sided: Mapping[str, Any] | None = None
+    forward_only: bool = False
     found: tuple[str, ...] = ()
     given: Mapping[str, Any] = field(default_factory=dict)
     duration: Value | None = None

@@ -309,6 +309,7 @@ def _origin(found: Any, velocity: Any) -> Reconstruction | None:
         contact_velocity=velocity,
         regime=_stated(found.get("regime")),
         one_sided=_sides(found.get("one_sided")),
+        forward_only=_flag(found.get("forward_only", False)),
         found=tuple(str(name) for name in found["found"]),
         given=_given_numbers(found["given"]),
         **{
@@ -348,6 +349,12 @@ def _stated(found: Any) -> str | None:
     if found not in (None, "sticking", "sliding"):
         raise bad_record(f"a contact is stated to be sticking or sliding, not {shown(found)}")
     return None if found is None else str(found)
+
+
+def _flag(found: Any) -> bool:
+    if not isinstance(found, bool):
+        raise bad_record(f"forward_only is true or false, not {shown(found)}")
+    return found
 
 
 def _sides(found: Any) -> dict[str, Any] | None:

@@ -291,6 +291,7 @@ _RECONSTRUCTION = {
             NULL,
         ]
     },
+    "forward_only": {"type": "boolean"},
     "found": {"type": "array", "items": TEXT},
     "given": {"type": "object", "additionalProperties": _VALUE},
     **{name: {"anyOf": [_VALUE, NULL]} for name in ("duration", "drag_a", "drag_b")},

@@ -25,7 +25,9 @@ SELDOM = 0.005
 # A share that none exceeds: what is stated with the number of samples, and never raised.
 STATED = 2.0
 # Codes of the warnings that say why cases have no answer.
-NO_ANSWER = frozenset({"refused_cases", "several_orders", "stuck_or_slid", "friction_differs"})
+NO_ANSWER = frozenset(
+    {"refused_cases", "several_orders", "stuck_or_slid", "friction_differs", "only_backwards"}
+)
 # Of a statement for those alone who work back through a model from what was observed.
 WORKED_BACK = "worked_back"
 # Of the statement that what comes in another order has no answer.

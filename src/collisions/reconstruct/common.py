@@ -44,8 +44,6 @@ _AMOUNTS = ("energy", "closing_speed", "speed_", "delta_v_a", "delta_v_b", "ees_
 DRAGS = ("drag_a", "drag_b")
 # Known values of both vehicles that count as one.
 PAIRS = {"ees_a": "ees_b", "max_crush_speed_a": "max_crush_speed_b"}
-# Between the courses of two unknown speeds: nearer to one line, they are hardly told apart.
-NEARLY_COLLINEAR = math.radians(10.0)
 # Above it the digits that no measurement has decide the answer.
 _ILL_CONDITIONED = 1e6
 # For functions whose result has no status.

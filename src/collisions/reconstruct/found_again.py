@@ -257,13 +257,10 @@ def _again(impact: Impact, origin: Reconstruction) -> Reconstruction | None:
     worked out again.
     """
     near: list[Reconstruction] = []
-    # A record does not say all that was asked: of planar, how the contact ended, and of speeds,
-    # for answers forwards alone.
+    # A record of planar does not say how the contact was asked to have ended.
     asked: Sequence[dict[str, Any]] = ({},)
     if origin.method == "planar":
         asked = [{"regime": regime} for regime in (None, *get_args(Regime))]
-    elif origin.method == "speeds":
-        asked = [{"forward_only": only} for only in (False, True)]
     for options in asked:
         try:
             with warnings.catch_warnings(), in_si():
@@ -330,6 +327,7 @@ def _solved_again(impact: Impact, origin: Reconstruction, **options: Any) -> tup
         wheels["duration"] = given.get("recorder_duration", inputs.duration)
     # One that stands needs no course.
     bodies = {name: given.get(name) for name in ("course_a", "course_b")}
+    contact["forward_only"] = origin.forward_only
     # A friction that was found was given as infinite, or as one that may have been greater.
     rule_value = given.get(FRICTION, math.inf) if FRICTION in origin.found else inputs.rule_value
     more: dict[str, Any] = {**bodies, **contact, **known, **options, inputs.rule: rule_value}

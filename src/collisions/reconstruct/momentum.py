@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..impact.doubts import NEARLY_COLLINEAR
 from ..impact.inputs import OnFailure
 from ..impact.run import check_options
 from ..kernels.reverse import Term, unknown_speed
@@ -37,7 +38,6 @@ from ..quantities.tables import Sentences, said
 from ..quantities.units import Input, Pair, is_quantity, magnitude, texts_of
 from ..vehicle.tyres import Tyres
 from .common import (
-    NEARLY_COLLINEAR,
     Cases,
     exactly,
     input_faults,

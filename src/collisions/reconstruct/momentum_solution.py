@@ -5,12 +5,13 @@ their sensitivities.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..impact.doubts import BACKWARDS, NEARLY_COLLINEAR, from_one_line, in_cases
 from ..kernels.status import Status
 from ..messages.errors import MissingInputError
 from ..quantities.attribute_stubs import MomentumSolutionQuantities
@@ -185,7 +186,8 @@ class MomentumSolution(Shown):
 
     @property
     def statements(self) -> tuple[str, ...]:
-        """What has to be said beside the numbers: without tyres, or without those of one vehicle,
+        """What has to be said beside the numbers: that a speed is backwards, or that the courses
+        are near one line; without tyres, or without those of one vehicle,
         by how much the speeds would differ if these wheels slid for 0.1 s, or the duration given,
         with a drag of 0.7; that an impulse from outside is part of a PDOF; with tyres, which other
         velocities fit too, or that others may and were not looked for.
@@ -196,13 +198,34 @@ class MomentumSolution(Shown):
         """The statements with their numbers in a system of units, by default that of the inputs."""
         say = Sentences(self._texts(), units)
         found = neglected(self, float(USUAL_DURATION), 0.7, lambda value, kind: say(value, kind, 2))
-        said = self._pushed() if found is None else (found.sentence, *self._pushed())
+        said = (*self._doubts(), *self._pushed())
+        said = said if found is None else (found.sentence, *said)
         if not self.tyres:
             return said
         other = other_velocity(self)
         if other is not None:
             return *said, other.sentence(self, say)
         return (*said, self._not_looked_for()) if self._may_have_others() else said
+
+    def _doubts(self) -> Iterator[str]:
+        """That a speed is backwards along its course, and that the courses are near one line."""
+        answered = np.less_equal(self.status, Status.ENERGY_GAIN)
+        speeds = [name for name in self.unknowns if name.startswith("speed")]
+        for name in speeds:
+            sentence = (
+                f"{name} is below 0: backwards along its course; check the courses, or turn its "
+                "course by 180 deg"
+            )
+            yield from in_cases(answered & np.less(getattr(self, name), -BACKWARDS), sentence)
+        if len(speeds) == 2:
+            one, other = (getattr(self, name.replace("speed", "course")) for name in speeds)
+            near = answered & np.less(from_one_line(one, other), NEARLY_COLLINEAR)
+            sentence = (
+                f"{' and '.join(speeds).replace('speed', 'course')} are within "
+                f"{math.degrees(NEARLY_COLLINEAR):.2g} degrees of one line, and small errors of a "
+                "course move both speeds far"
+            )
+            yield from in_cases(near, sentence)
 
     def _pushed(self) -> tuple[str, ...]:
         """That an impulse from outside is part of a PDOF, in a sentence."""

@@ -12,6 +12,7 @@ from typing import Any, Literal
 
 import numpy as np
 
+from ..impact.doubts import taken_to_stick
 from ..impact.impact import Impact
 from ..impact.inputs import TYRES, Inputs, Law, check_flag, read_inputs
 from ..impact.instant import looked_for
@@ -473,23 +474,6 @@ def _refuse_open_ratio(inputs: Inputs, known: Mapping[str, Any]) -> None:
             code="bad_combination",
             argument="friction",
         )
-
-
-def taken_to_stick(impact: Impact) -> bool:
-    """Whether components of delta-V told the speeds of an impact only because it was stated, or
-    taken, to have stuck.
-    """
-    origin = impact.reconstruction
-    return (
-        origin is not None
-        and impact.inputs.rule == FRICTION
-        and any(name in COMPONENTS for name in origin.known)
-        and (
-            origin.regime == "sticking"
-            or not any(name.startswith(("speed", "energy", "ees")) for name in origin.known)
-        )
-        and not any((origin.one_sided or {}).values())
-    )
 
 
 def if_it_slid(impact: Impact) -> Impact | None:

@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..impact.doubts import MAY_SLIDE
 from ..impact.impact import Impact
 from ..impact.inputs import Inputs
 from ..impact.instant import looked_for
@@ -26,7 +27,12 @@ from ..messages.errors import (
     IllConditionedWarning,
     OutOfRangeWarning,
 )
-from ..messages.warning import answer_counts, warn_of_cases, warn_of_samples
+from ..messages.warning import (
+    answer_counts,
+    state_of_cases,
+    warn_of_cases,
+    warn_of_samples,
+)
 from ..quantities.refusals import LATERAL
 from ..quantities.tables import Sentences, given_texts, said
 from ..vehicle.vehicle import moved
@@ -37,13 +43,12 @@ from .speeds_components import (
     ACCURACY,
     CLEARLY_BELOW,
     COMPONENTS,
-    MAY_SLIDE,
     MOST_ENERGY,
     RATIO_SHOWN,
     ComponentScene,
     with_most_energy,
 )
-from .speeds_search import Search
+from .speeds_search import Search, forwards
 from .speeds_tyres import Attempt
 
 # Above this restitution hardly any energy is lost along the normal.
@@ -118,7 +123,11 @@ def answers_of(
     if inputs.tyres:
         faults += tyre_faults(inputs.duration, inputs.tyres)
     nowhere = np.zeros(scene.shape, dtype=bool)
-    count = sum((there.astype(np.int64) for _, there in found), nowhere.astype(np.int64))
+    count = all_count = _number_of(found, scene)
+    ranks: list[Any] = []
+    if search.forward_only:
+        found, ranks = forwards(scene, found)
+        count = _number_of(found, scene)
     # Stuck and slid.
     count = np.where(scene.ambiguous, 2, count) if np.any(scene.ambiguous) else count
     impacts: list[Impact] = []
@@ -129,6 +138,8 @@ def answers_of(
         status = cases.first_status((*faults, (there, Status.OK), (True, Status.CONTRADICTORY)))
         if isinstance(status, int) and status != Status.OK:
             say = Sentences(inputs.texts)
+            if status == Status.CONTRADICTORY and attempted.found:
+                raise _backwards_alone(scene, attempted.found, known, say)
             if status == Status.AMBIGUOUS and isinstance(scene, ComponentScene):
                 ways_of = [one for one in scene.ways or [scene] if np.any(one.ambiguous)]
                 sticks = any(np.any(one.sticks) for one in ways_of)
@@ -164,6 +175,8 @@ def answers_of(
         own = scene.of_way(root.way) if isinstance(scene, ComponentScene) else None
         if own is not None:
             origin = replace(origin, regime=own.stated, one_sided=_sides(own, cases, root, there))
+        if search.forward_only:
+            origin = replace(origin, forward_only=True)
         impact = run_forward(
             partial(inputs_of, root), status, origin, None if cases.shape is None else "nan"
         )
@@ -182,7 +195,9 @@ def answers_of(
             function.warn_at(np.where(impact.refused, np.nan, impact.closing_speed))
     if cases.shape is not None and np.any(impacts[0].refused):
         warn_of_refusals(impacts[0].status, ASK_ALONE)
-    _warn_of_folds(scene, found, count)
+    _warn_of_folds(scene, found, attempted.found, all_count)
+    if search.forward_only:
+        _say_what_is_left_out(cases, ranks, count, all_count)
     if isinstance(scene, ComponentScene):
         scene.warn(np.logical_not(impacts[0].refused), cases)
         for at, (own, impact) in enumerate(zip(scenes, impacts, strict=True)):
@@ -479,6 +494,23 @@ def _slid_either_way(
     )
 
 
+def _backwards_alone(
+    scene: Scene, found: list[tuple[Root, Any]], known: dict[str, Any], say: Sentences
+) -> CollisionsError:
+    """The error for a single case in every answer of which a vehicle goes backwards, where those
+    are left out.
+    """
+    told = [
+        _alone([float(speed * scene.speed_unit) for speed in root[:2]], say) for root, _ in found
+    ]
+    return error_of(
+        Status.CONTRADICTORY,
+        f"in every answer that fits {' and '.join(known)} a vehicle goes backwards along its "
+        f"course, and `forward_only=True` leaves those out: {', or '.join(told)}. Check the "
+        "courses, and the normal, which must point from A into B, or leave out `forward_only=True`",
+    )
+
+
 def _along(impact: Impact, label: str, scene: Scene) -> float:
     """The speed of a vehicle before, below 0 where it goes backwards along its course."""
     before = getattr(impact, label).before
@@ -504,15 +536,60 @@ def _alone(speeds: Sequence[float], say: Sentences) -> str:
     )
 
 
-def _warn_of_folds(scene: Scene, found: list[tuple[Root, Any]], count: Any) -> None:
-    """Warn a study of samples near a fold: some cases have no answer, or its two answers all but
-    meet.
+def _number_of(found: list[tuple[Root, Any]], scene: Scene) -> Any:
+    """How many roots each case has."""
+    none = np.zeros(scene.shape, dtype=np.int64)
+    return sum((there.astype(np.int64) for _, there in found), none)
+
+
+def _say_what_is_left_out(cases: Cases, ranks: list[Any], count: Any, all_count: Any) -> None:
+    """Say in which cases answers were left out in which a vehicle goes backwards, and warn of those
+    that have no other, and of samples that are of one answer here and of another there.
     """
-    if len(found) < 2:
+    alone = (count == 0) & (all_count > 0)
+    if cases.shape is not None and np.any(alone):
+        text = (
+            "in every answer a vehicle goes backwards along its course, and `forward_only=True` "
+            "leaves those out"
+        )
+        warning = OutOfRangeWarning(cases.how_many(alone) + text, code="only_backwards")
+        warn_of_cases(warning, {text: cases.each(alone)})
+    others = (count > 0) & (all_count > count)
+    if np.any(others):
+        text = (
+            "an answer in which a vehicle goes backwards along its course was left out "
+            "(`forward_only=True`), and there is another"
+        )
+        state_of_cases({text: cases.each(others)}, "left_backwards")
+    for at, rank in enumerate(ranks):
+        own = np.broadcast_to(rank, np.shape(count))[count > at]
+        if answer_counts(at) and own.size and own.min() != own.max():
+            warn_of_samples(
+                OutOfRangeWarning(
+                    "of two answers the one of lower closing speed has a vehicle go backwards in "
+                    "some cases alone, and `forward_only=True` leaves it out there and takes the "
+                    "other: the samples are no range of one answer. Leave out `forward_only=True` "
+                    "and look at both answers, or bound the inputs",
+                    code="fold",
+                )
+            )
+            break
+
+
+def _warn_of_folds(
+    scene: Scene, found: list[tuple[Root, Any]], every: list[tuple[Root, Any]], count: Any
+) -> None:
+    """Warn a study of samples near a fold: some cases have no answer, or its two answers all but
+    meet. ``count`` is of ``every`` answer, also where those ``found`` go forwards alone.
+    """
+    if len(every) < 2:
         return
-    (one, _), (other, both) = found[:2]
-    gap = np.hypot(one.speed_a - other.speed_a, one.speed_b - other.speed_b)[both]
-    if gap.size and (np.any(np.less(count, 2)) or gap.min() < _NEAR_FOLD * gap.max()):
+    near = False
+    if len(found) > 1:
+        (one, _), (other, both) = found[:2]
+        gap = np.hypot(one.speed_a - other.speed_a, one.speed_b - other.speed_b)[both]
+        near = gap.size > 0 and gap.min() < _NEAR_FOLD * gap.max()
+    if near or np.any(np.less(count, 2)):
         warn_of_samples(
             OutOfRangeWarning(
                 f"{' and '.join(scene.names)} reach a fold, where two answers meet and beyond "
@@ -538,7 +615,6 @@ def _refusal(
         for name, value in known.items()
     }
     speed_is_known = scene.kinds[0].startswith("speed")
-    forward = ", none of them backwards," if search.forward_only else ""
     if status == Status.INFINITE_MASS:
         kind = next(kind for kind in known if kind.startswith("delta_v"))
         other = "delta_v_b" if kind == "delta_v_a" else "delta_v_a"
@@ -595,7 +671,7 @@ def _refusal(
             search.function.complain()
         status = Status.CONTRADICTORY
         text = (
-            f"no speeds along these courses{forward} fit {' and '.join(values.values())} with "
+            f"no speeds along these courses fit {' and '.join(values.values())} with "
             f"this restitution, {scene.rule} and geometry; check the courses, and the normal, "
             "which must point from A into B, or give another known in place of one of these"
         )

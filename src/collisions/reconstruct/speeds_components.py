@@ -23,12 +23,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..impact.doubts import MAY_SLIDE, NEARLY_COLLINEAR
 from ..kernels.contact_laws import FRICTION
 from ..messages.errors import IllConditionedWarning
 from ..messages.warning import warn_of_cases
 from ..quantities.directions import Angle
-from ..reference import INTER_VEHICLE_FRICTION, RECORDER_ACCURACY
-from .common import NEARLY_COLLINEAR, Cases
+from ..reference import RECORDER_ACCURACY
+from .common import Cases
 from .restitution_roots import RestitutionOf
 from .speeds_algebra import (
     EITHER,
@@ -53,8 +54,6 @@ CONTRADICTION = 3.0 * ACCURACY
 _DISAGREE = 0.95
 # A ratio up to this share of the friction is clearly below it: the contact stuck.
 CLEARLY_BELOW = 0.5
-# Between vehicles a contact may slide from this ratio on.
-MAY_SLIDE = INTER_VEHICLE_FRICTION.low
 # Speeds of a contact that stuck and of one that slid that differ by no more, of the closing speed,
 # are one answer.
 _ONE_ANSWER = 1e-3

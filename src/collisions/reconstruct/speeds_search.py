@@ -43,6 +43,8 @@ from .speeds_tyres import (
 _ONE_ROOT = 1e-3
 # Where speeds may differ by more and still meet what is known, that repeats itself.
 _FREE = 0.1
+# The row of a root, as an array, by which roots are sorted and left out.
+_CLOSING = Root._fields.index("closing")
 
 
 class _Looked(NamedTuple):
@@ -125,7 +127,7 @@ class Search:
                 root._replace(closing=np.where(there, root.closing, np.nan))
                 for root, there in found.found
             ]
-            found = found._replace(found=in_order(found.scene, roots, self.forward_only))
+            found = found._replace(found=in_order(found.scene, roots))
         else:
             found = changed({})
         if not self.texts:
@@ -230,9 +232,7 @@ class Search:
         if most == math.inf:
             # Whether it stuck or slid is asked when the tyres are known.
             scene.ambiguous = np.zeros((), dtype=bool)
-        # Of those in balance it is asked at the end.
-        forwards = self.forward_only and not self._balanced
-        return _Looked(scene, in_order(scene, roots, forwards), friction)
+        return _Looked(scene, in_order(scene, roots), friction)
 
     def _scene(
         self,
@@ -399,7 +399,7 @@ class Search:
             # Without friction knowns tell of the closing speed, and of the speeds with it only by
             # what tyres add, which may be the same over a range of them.
             scene.undetermined = scene.undetermined | np.equal(attempt.inputs.rule_value, 0.0)
-        return attempt._replace(found=in_order(scene, roots, self.forward_only, SETTLED))
+        return attempt._replace(found=in_order(scene, roots, SETTLED))
 
 
 def _with_friction(inputs: Inputs, friction: Any) -> Inputs:
@@ -438,7 +438,7 @@ def _together(looks: Sequence[_Looked], given: Any, balanced: bool) -> _Looked:
     shown = [look.friction for look in looks]
     frictions = [given if one is None else one for one in shown]
     one = next((one for one in shown if one is not None), None)
-    return _Looked(whole, in_order(whole, roots, False), one, () if one is None else frictions)
+    return _Looked(whole, in_order(whole, roots), one, () if one is None else frictions)
 
 
 def _with_function(scene: Scene, function: RestitutionOf) -> list[Root]:
@@ -483,9 +483,7 @@ def _with_function(scene: Scene, function: RestitutionOf) -> list[Root]:
     return found
 
 
-def in_order(
-    scene: Scene, roots: list[Root], forward_only: bool, met: float = 0.0
-) -> list[tuple[Root, Any]]:
+def in_order(scene: Scene, roots: list[Root], met: float = 0.0) -> list[tuple[Root, Any]]:
     """The distinct roots that fit, by rising closing speed, and their cases in the batch.
 
     ``met`` is the share to which roots meet what is known; those of several searches for one root
@@ -496,20 +494,13 @@ def in_order(
         scene.undetermined = scene.undetermined | ((root.closing > 0.0) & (root.one_of_many > 0.0))
     if not fitting or np.all(scene.undetermined | scene.ambiguous):
         return []
-    if len(fitting) == 1 and scene.plain and not forward_only:
+    if len(fitting) == 1 and scene.plain:
         return [(fitting[0], np.True_)]
-    whole = np.array([[np.broadcast_to(part, scene.shape) for part in root] for root in fitting])
+    whole = _as_rows(fitting, scene.shape)
+    open_cases = np.broadcast_to(scene.undetermined | scene.ambiguous, whole[:, _CLOSING].shape)
+    whole[:, _CLOSING][open_cases] = np.nan
+    whole, _ = _sorted(whole)
     speeds_a, speeds_b, _, condition, closing, *_ = np.moveaxis(whole, 1, 0)
-
-    def sort() -> None:
-        """Sort the answers by closing speed in every case, those left out last."""
-        order = np.argsort(closing, axis=0, kind="stable")
-        whole[:] = np.take_along_axis(whole, order[:, np.newaxis], axis=0)
-
-    closing[np.broadcast_to(scene.undetermined | scene.ambiguous, closing.shape)] = np.nan
-    if forward_only:
-        closing[np.minimum(speeds_a, speeds_b) < -ROOT_TOL * closing] = np.nan
-    sort()
     for i in range(1, len(closing)):
         # Others of the same closing speed may stand between two that are one.
         apart = abs(speeds_a[i] - speeds_a[:i]) + abs(speeds_b[i] - speeds_b[:i])
@@ -519,10 +510,41 @@ def in_order(
             blur = np.fmax(blur, np.fmin(met * condition[:i], _ONE_ROOT))
         again = (closing[:i] > 0.0) & (apart <= blur * closing[i])
         closing[i] = np.where(np.any(again, axis=0), np.nan, closing[i])
-    sort()
+    return _as_found(_sorted(whole)[0])
+
+
+def forwards(
+    scene: Scene, found: list[tuple[Root, Any]]
+) -> tuple[list[tuple[Root, Any]], list[Any]]:
+    """Of roots in order those in which no vehicle goes backwards, and of each which of all roots
+    of its case it is, counted from 0.
+    """
+    if not found:
+        return [], []
+    whole = _as_rows([root for root, _ in found], scene.shape)
+    speeds_a, speeds_b, _, _, closing, *_ = np.moveaxis(whole, 1, 0)
+    closing[np.minimum(speeds_a, speeds_b) < -ROOT_TOL * closing] = np.nan
+    whole, order = _sorted(whole)
+    ahead = _as_found(whole)
+    return ahead, list(order[: len(ahead)])
+
+
+def _as_rows(roots: Sequence[Root], shape: tuple[int, ...]) -> Any:
+    """Roots as one array: of each its numbers, of each of these every case."""
+    return np.array([[np.broadcast_to(part, shape) for part in root] for root in roots])
+
+
+def _sorted(whole: Any) -> tuple[Any, Any]:
+    """The roots by rising closing speed in every case, those left out last; and the order."""
+    order = np.argsort(whole[:, _CLOSING], axis=0, kind="stable")
+    return np.take_along_axis(whole, order[:, np.newaxis], axis=0), order
+
+
+def _as_found(whole: Any) -> list[tuple[Root, Any]]:
+    """Each root that some case has, and in which cases."""
     return [
         (Root(*root), there)
-        for root, there in zip(whole, closing > 0.0, strict=True)
+        for root, there in zip(whole, whole[:, _CLOSING] > 0.0, strict=True)
         if np.any(there)
     ]
 

@@ -1,0 +1,114 @@
+"""What has to be doubted of an impact that was found backwards: a speed backwards along its course,
+courses near one line, and a contact that was taken to stick and may have slid.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from ..kernels.contact_laws import FRICTION
+from ..reference import INTER_VEHICLE_FRICTION
+from .impact import Impact
+from .reconstruction import NOT_THIS, Reconstruction
+
+# Courses that are this near one line tell little of both speeds.
+NEARLY_COLLINEAR = math.radians(10.0)
+# Between vehicles a contact may slide from this impulse ratio on.
+MAY_SLIDE = INTER_VEHICLE_FRICTION.low
+# In m/s (0.4 km/h): a speed backwards by less is below what evidence shows.
+BACKWARDS = 0.1
+
+
+def doubts(impact: Impact) -> Iterator[str]:
+    """Each doubt in a sentence without a unit; of a batch, with the number of its cases."""
+    origin = impact.reconstruction
+    if origin is None:
+        return
+    answered = np.logical_not(impact.refused)
+    for name, speed in speeds_along(impact).items():
+        sentence = (
+            f"{name} was found backwards along its course (its size is printed): check the "
+            "courses, and the normal, which must point from A into B"
+        )
+        yield from in_cases(answered & np.less(speed, -BACKWARDS), sentence)
+    angle = angle_of_courses(origin)
+    if angle is not None:
+        sentence = (
+            f"course_a and course_b are within {math.degrees(NEARLY_COLLINEAR):.2g} degrees of one "
+            "line: small errors of delta-V and of the courses move both speeds far"
+        )
+        yield from in_cases(answered & np.less(angle, NEARLY_COLLINEAR), sentence)
+    if taken_to_stick(impact):
+        ratio = np.abs(impact.impulse_ratio)
+        slides = answered & (ratio >= MAY_SLIDE) & np.equal(impact.regime, "sticking")
+        shown = float(np.max(np.where(slides, ratio, 0.0)))
+        sentence = (
+            f"to stick, the contact needs an impulse ratio of {shown:.2f}, and contacts between "
+            f"vehicles slide from {MAY_SLIDE:g} on; if it slid, {NOT_THIS}"
+        )
+        yield from in_cases(slides, sentence)
+
+
+def in_cases(where: Any, sentence: str) -> Iterator[str]:
+    """The sentence where it holds, of a batch with the number of cases; nothing where in none."""
+    count = int(np.count_nonzero(where))
+    if count:
+        of = "" if np.ndim(where) == 0 else f"in {count} of {np.size(where)} cases, "
+        yield of + sentence
+
+
+def speeds_along(impact: Impact) -> dict[str, Any]:
+    """The speeds that were found along a known course, by name, below 0 where backwards."""
+    origin = impact.reconstruction
+    found: dict[str, Any] = {}
+    if origin is None:
+        return found
+    for label in "ab":
+        course = origin.given.get(f"course_{label}")
+        if f"speed_{label}" in origin.found and course is not None:
+            before = getattr(impact, label).before
+            found[f"speed_{label}"] = before.vx * np.cos(course) + before.vy * np.sin(course)
+    return found
+
+
+def angle_of_courses(origin: Reconstruction) -> Any:
+    """How far both courses are from one line, where both speeds were found from components of
+    delta-V along courses that were given; else None.
+    """
+    if not from_components(origin) or len(origin.found) < 2:
+        return None
+    if not {"course_a", "course_b"} <= origin.given.keys():
+        return None  # one that stands needs no course
+    return from_one_line(origin.given["course_a"], origin.given["course_b"])
+
+
+def from_one_line(one: Any, other: Any) -> Any:
+    """How far two courses are from one line, in either direction."""
+    between = np.mod(np.subtract(one, other), np.pi)
+    return np.minimum(between, np.pi - between)
+
+
+def from_components(origin: Reconstruction) -> bool:
+    """Whether an impact was found from components of delta-V."""
+    return any(name.startswith(("delta_v_forward", "delta_v_left")) for name in origin.known)
+
+
+def taken_to_stick(impact: Impact) -> bool:
+    """Whether components of delta-V told the speeds of an impact only because it was stated, or
+    taken, to have stuck.
+    """
+    origin = impact.reconstruction
+    return (
+        origin is not None
+        and impact.inputs.rule == FRICTION
+        and from_components(origin)
+        and (
+            origin.regime == "sticking"
+            or not any(name.startswith(("speed", "energy", "ees")) for name in origin.known)
+        )
+        and not any(np.any(side) for side in (origin.one_sided or {}).values())
+    )
