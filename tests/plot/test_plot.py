@@ -1631,6 +1631,24 @@ def test_areas_are_the_impulses(case):
         )
 
 
+def test_areas_whose_ratio_is_not_the_restitution_are_the_impulses():
+    """Where slip stops or turns, e squared is the share of the work that is given back, and the
+    impulse of restitution is not e times that of compression.
+    """
+    a = col.Vehicle(mass=2113, yaw_inertia=3593, vx=6.25, vy=-0.5, x=-2.2, y=0.44)
+    b = col.Vehicle(mass=1500, yaw_inertia=2550, vx=2.25, vy=-7.94, x=2.2, y=-0.93)
+    impact = col.eccentric(a, b, 0.2, normal=0.0, point=(0, 0), friction=0.87, law="stronge")
+    axes = plot.force_time(impact, 0.1, units="si")
+    first, second = (area(named(axes, name)) for name in ("A1", "A2"))
+    assert first == pytest.approx(impact.compression_impulse, rel=ROUNDING)
+    assert second == pytest.approx(impact.restitution_impulse, rel=ROUNDING)
+    assert first + second == pytest.approx(
+        named(axes, "mean force").get_ydata()[0] * 0.1, rel=ROUNDING
+    )
+    assert second / first == pytest.approx(0.264, abs=1e-3)
+    assert "A2/A1" not in axes.get_title()
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(("restitution", "turn"), [(0.0, 0.1), (0.25, 0.08), (1.0, 0.05)])
 def test_restitution_takes_its_part_of_the_time(restitution, turn):

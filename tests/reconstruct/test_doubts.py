@@ -1,12 +1,14 @@
 """What a reverse solver warns of stands in statements, summary and derivation as well."""
 
+import json
 import math
 
 import numpy as np
+import pint
 import pytest
 
 import collisions as col
-from collisions import reconstruct
+from collisions import reconstruct, travel, uncertainty
 
 A = col.Vehicle(mass=1500.0, yaw_inertia=2500.0, x=-2.0, y=0.0, heading=0.0)
 B = col.Vehicle(mass=1300.0, yaw_inertia=2000.0, x=2.0, y=0.8, heading="70 deg")
@@ -88,3 +90,111 @@ def test_numbers_beside_a_bound_are_said_to_be_those_of_the_least_slip():
     known = {"delta_v_forward_a": "-24 km/h", "delta_v_left_a": "9 km/h", "friction": 0.4}
     (found,) = reconstruct.speeds(A, B, **MET | known, slid="bound")
     assert "All other numbers are those of the least slip" in " ".join(str(found.summary()).split())
+
+
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+def test_a_contact_that_may_have_stuck_is_said_with_both_ends():
+    """Of planar where the slip after is all but 0: on every page, of a batch, in the record, which
+    is worked out again.
+    """
+    after_a = A.replace(y=0.4, vx=9.2, vy=2.5, yaw_rate=1.6)
+    after_b = B.replace(mass=1200.0, yaw_inertia=1900.0, y=0.0, vx=10.0, vy=5.0, yaw_rate=-0.5)
+    met = {"normal": 0.07, "point": (0.05, 0.09), "friction": 0.3}
+    with pytest.warns(col.IllConditionedWarning, match="may be none"):
+        found = reconstruct.planar(after_a, after_b, energy_loss=90e3, **met)
+    said = "the slip before was anything between -18.55 m/s and 9.96 m/s"
+    pages = [*told(found), " ".join(str(col.report(found, form="markdown")).split())]
+    assert sum(said in page for page in pages) == 4
+    (condition,) = (one for one in col.diagnose(found) if one.code == "ill_conditioned")
+    assert "the sign of the slip after" in condition.sentence
+    # The ends: at the limits of friction the same motions after have these slips before.
+    low, high = found.reconstruction.slip_if_stuck
+    for ratio, slip in ((0.3, low), (-0.3, high)):
+        end = reconstruct.planar(
+            after_a, after_b, energy_loss=90e3, **met | {"friction": None}, impulse_ratio=ratio
+        )
+        assert end.slip_before == pytest.approx(slip, rel=1e-6)
+    record = json.loads(json.dumps(found.to_dict()))
+    assert col.Impact.from_dict(record).reconstruction == found.reconstruction
+    record["results"]["reconstruction"]["slip_if_stuck"][0] = -9.0
+    with pytest.raises(col.InputError, match="it says a slip from -9"):
+        col.report(col.Impact.from_dict(record))
+    energies = np.array([90e3, 60e3])
+    many = reconstruct.planar(after_a, after_b, energy_loss=energies, **met)
+    assert any(one.startswith("in 2 of 2 cases, the slip after") for one in many.statements)
+    assert any(said in one for one in many.case(0).statements)
+
+
+KEPT_SPEED = {
+    "course_b": 0.0, "course_a_after": "-30 deg", "course_b_after": "-40 deg",
+    "speed_a_after": "30 km/h", "speed_b_after": "50 km/h", "course_near": "-70 deg",
+}  # fmt: skip
+
+
+def test_the_course_that_course_near_did_not_choose_is_said():
+    found = reconstruct.momentum(1200.0, 1800.0, **KEPT_SPEED, speed_a="68 km/h")
+    other = reconstruct.momentum(
+        1200.0, 1800.0, **KEPT_SPEED | {"course_near": "-110 deg"}, speed_a="68 km/h"
+    )
+    said = (
+        "two courses fit as the course of A, and `course_near` chose; with the other, "
+        f"{math.degrees(other.course_a):.4g}°, the speed of B is {3.6 * other.speed_b:.4g} km/h"
+    )
+    pages = [*told(found), " ".join(str(col.report(found, form="markdown")).split())]
+    plain = [page.replace("`", "").replace("\\", "") for page in pages]
+    assert sum(said[1:].replace("`", "") in page for page in plain) == 4
+
+
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+def test_where_no_course_fits_with_tyres_it_is_said():
+    """The balance with tyres asks for 66.3 km/h, as the solver with these tyres says as well."""
+    found = reconstruct.momentum(1200.0, 1800.0, **KEPT_SPEED, speed_a="65 km/h")
+    assert "with a drag of 0.7, no course of A would fit what is known" in found.statements[0]
+    wheels = {f"tyres_{label}": travel.Tyres(0.7, 1.0, 2.6, 1.5) for label in "ab"}
+    with pytest.raises(col.NoSolutionError, match="no course_a fits"):
+        reconstruct.momentum(
+            1200.0, 1800.0, **KEPT_SPEED, speed_a="65 km/h", duration=0.1, **wheels,
+            heading_a=found.course_a, heading_b=0.0,
+        )  # fmt: skip
+    (instant,) = (one for one in col.diagnose(found) if one.code == "instant")
+    assert "no course of A would fit" in instant.sentence
+
+
+def test_a_reading_beyond_what_recorders_are_exact_to_is_said_with_it():
+    """Summary, inputs of a study and evidence of a posterior; and a record that is cut."""
+    time = np.arange(0.0, 0.26, 0.01)
+    forward = pint.Quantity(-125.0 * np.clip(time / 0.11, 0.0, 1.0), "km/h")
+    with pytest.warns(col.OutOfRangeWarning, match="exact to 100 km/h"):
+        pulse = reconstruct.recorded_pulse(time, forward, polarity="ISO 8855")
+    said = "delta-V forward goes to -125 km/h, and 49 CFR 563 asks recorders to be exact to 100"
+    assert said in " ".join(str(pulse.summary()).split()).replace("Delta", "delta")
+    with pytest.warns(col.OutOfRangeWarning, match=r"from the recorder \(delta_v_forward_a\)"):
+        study = uncertainty.propagate(
+            lambda delta_v_forward_a: {"x": delta_v_forward_a}, pulse.inputs("a"), samples=64
+        )
+    assert any(said in one for one in study.statements)
+    with pytest.warns(col.OutOfRangeWarning, match=said):
+        found = reconstruct.posterior(
+            lambda speed: {"delta_v": -0.5 * speed},
+            {"speed": uncertainty.Uniform(40.0, 90.0)},
+            {"delta_v": pulse.evidence[0]},
+            samples=512,
+        )
+    assert any(said in one for one in found.statements)
+    with pytest.warns(col.OutOfRangeWarning, match="lower bound"):
+        cut = reconstruct.recorded_pulse(time[:8], forward[:8] / 5.0, polarity="ISO 8855")
+    assert "is a lower bound" in " ".join(str(cut.summary()).split())
+    assert not reconstruct.recorded_pulse(time, forward / 5.0, polarity="ISO 8855").statements
+
+
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+def test_a_study_of_readings_at_a_place_says_how_speeds_were_looked_for():
+    known = {"delta_v_forward_a": "-24 km/h", "delta_v_left_a": "9 km/h", "regime": "sticking"}
+    more = {"friction": math.inf, "recorder_a": (0.3, -0.2), "duration": 0.1}
+
+    def model(restitution):
+        found = reconstruct.speeds(A, B, **MET | {"restitution": restitution} | known, **more)
+        return {"b": found[0].speed_b}
+
+    study = uncertainty.propagate(model, {"restitution": uncertainty.Uniform(0.0, 0.2)}, samples=64)
+    assert any("speeds from readings away from the centre" in one for one in study.statements)

@@ -474,13 +474,16 @@ def test_forward_only_is_said_and_warns_of_samples_of_two_answers():
     for page in (col.explain(again), col.report(again)):
         assert said.capitalize() in str(page)
     altered = one.to_dict()
-    altered["reconstruction"]["forward_only"] = False
+    altered["results"]["reconstruction"]["forward_only"] = False
     with pytest.raises(col.InputError, match="2 answers, and it says 1"):
         col.report(col.Impact.from_dict(altered))
-    with pytest.raises(col.NoSolutionError, match=r"leaves those out: .*B would go backwards"):
+    hit = col.eccentric(A.replace(vx=12.0), B.replace(vx=-5.0), 0.1, **CONTACT, friction=0.5)
+    given = {"course_a": 0.0, "course_b": 0.0, "restitution": 0.1, **CONTACT, "friction": 0.5}
+    known = {"delta_v_b": hit.b.delta_v, "forward_only": True}
+    with pytest.raises(col.NoSolutionError, match=r"\(100 %\).*leaves those out"):
         uncertainty.propagate(
-            lambda delta_v: {"b": fold(delta_v, forward_only=True)[0].speed_b},
-            {"delta_v": uncertainty.Normal(120.0, 0.5)},
+            lambda speed_a: {"b": speeds(A, B, **given, **known, speed_a=speed_a)[0].speed_b},
+            {"speed_a": uncertainty.Normal(12.0, 0.1)},
             samples=64,
             seed=1,
         )

@@ -100,6 +100,12 @@ def ill_conditioned(case: Case) -> Iterator[Measured]:
             f"reconstruct.{origin.method}: one percent in what was given ({given}) may become "
             f"{plain(origin.condition)} percent of the closing speed in the speeds before"
         )
+        if origin.slip_if_stuck is not None and not math.isnan(origin.slip_if_stuck[0]):
+            slip = case.text(abs(case.answer.slip_after), "speed")
+            sentence = (
+                f"reconstruct.{origin.method}: the sign of the slip after, {slip}, decides, and it "
+                "may be none: then the contact stuck, and the slip before is open"
+            )
         yield Measured(origin.condition, sentence)
 
 

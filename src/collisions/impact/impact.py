@@ -809,6 +809,7 @@ class Impact(_SpeedsBefore, Frozen, Summarized):
                     self.reconstruction.condition,
                     self.reconstruction.answers,
                     self.reconstruction.contact_velocity,
+                    self.reconstruction.slip_if_stuck,
                     self.reconstruction.one_sided,
                     self.reconstruction.given,
                 )

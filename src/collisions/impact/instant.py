@@ -5,7 +5,7 @@ still leaves out with tyres.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,6 +14,7 @@ from ..kernels.elementwise import turning_velocity
 from ..messages.errors import CollisionsError
 from ..messages.warning import quietly
 from ..quantities.formatting import percent
+from ..quantities.tables import Sentences
 from ..vehicle.vehicle import with_name
 from .impact import Impact
 from .left_out import LeftOut, left_out, tyres_held, tyres_lacking
@@ -43,6 +44,7 @@ LOOKED_FOR_TURNS = (
     "answers are looked for from many turns of the cars of up to a quarter during the contact; one "
     "that none of these leads to is missed, and one that turns by more is none"
 )
+FROM_READINGS = f"from readings away from the centre of mass: {LOOKED_FOR_TURNS}"
 # Of motions before that ``planar`` finds with tyres.
 LOOKED_AROUND = (
     "origins are looked for from those of an instant without tyres and from motions around them, "
@@ -173,6 +175,7 @@ def found_backwards(impact: Impact) -> tuple[str, ...]:
     forwards = (FORWARDS_ALONE,) if origin is not None and origin.forward_only else ()
     return (
         *forwards,
+        *_may_have_stuck(impact),
         *_motions_changed(impact),
         *_found_from_readings(impact),
         *_found_with_tyres(impact),
@@ -199,7 +202,7 @@ def _found_from_readings(impact: Impact) -> tuple[str, ...]:
         lasts = origin.given.get("recorder_duration", 0.0)
     if not np.any(np.greater(lasts, 0.0)):
         return ()
-    return (f"found from readings away from the centre of mass: {LOOKED_FOR_TURNS}",)
+    return (f"found {FROM_READINGS}",)
 
 
 def _found_with_tyres(impact: Impact) -> tuple[str, ...]:
@@ -220,6 +223,36 @@ def _bound_with_tyres(origin: Reconstruction) -> tuple[str, ...]:
         "a bound with tyres: with more slip the tyres do otherwise than at this end of the speeds, "
         "and one that hardly changes from there on may lie a little beyond its bound",
     )
+
+
+def _may_have_stuck(impact: Impact) -> tuple[str, ...]:
+    """What has to be said of an impact that ``planar`` found from a slip after that may be none."""
+    origin = impact.reconstruction
+    if origin is None or origin.slip_if_stuck is None:
+        return ()
+    low, high = origin.slip_if_stuck
+    nearly = np.logical_not(np.isnan(low))
+    if not np.any(nearly):
+        return ()
+    say = Sentences(impact.inputs.texts)
+    where, of = "in a wide range", ""
+    if np.ndim(low) == 0:
+        where = in_interval(float(low), float(high), lambda end: say(end, "speed", 4))
+    else:
+        of = f"in {np.count_nonzero(nearly)} of {np.size(low)} cases, "
+    least = float(np.min(np.where(nearly, np.abs(impact.slip_after), np.inf)))
+    return (
+        f"{of}the slip after the impact, {say(least, 'speed', 3)}, is so small that it may be "
+        f"none: then the contact stuck, and the slip before was anything {where}; the answer is "
+        "that of the sign of the slip after. Decide with `impulse_ratio=` of either sign",
+    )
+
+
+def in_interval(low: float, high: float, text: Callable[[float], str]) -> str:
+    """Where a number lies between two, which ``text`` writes; "" for all numbers."""
+    if math.isinf(low):
+        return "" if math.isinf(high) else f"below {text(high)}"
+    return f"above {text(low)}" if math.isinf(high) else f"between {text(low)} and {text(high)}"
 
 
 def _motions_changed(impact: Impact) -> tuple[str, ...]:

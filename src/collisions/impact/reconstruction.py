@@ -60,6 +60,9 @@ class Reconstruction:
     forward_only : bool
         Of ``speeds``: whether answers in which a vehicle goes backwards along its course were left
         out, as the caller asked. ``answers`` are those that were not.
+    slip_if_stuck : tuple of float or array [m/s], optional
+        Of ``planar``: where the slip after is so small that it may be none, the least and the
+        greatest slip before of a contact that stuck; NaN for other cases of a batch.
     found : tuple of str
         What was found of the state before and of the contact, by name: "speed_a", "speed_b", and
         where they were sought "course_a", "yaw_rate_a", "restitution", "friction" and so on. In a
@@ -83,6 +86,7 @@ class Reconstruction:
     regime: str | None = None
     one_sided: Mapping[str, Any] | None = None
     forward_only: bool = False
+    slip_if_stuck: tuple[Value, Value] | None = None
     found: tuple[str, ...] = ()
     given: Mapping[str, Any] = field(default_factory=dict)
     duration: Value | None = None
@@ -304,8 +308,9 @@ def origin_where_answered(origin: Reconstruction, status: Any) -> Reconstruction
         select(refused, math.nan, origin.condition),
         select(refused > several, 0, origin.answers),
     )
-    velocity = origin.contact_velocity and read_only(
-        tuple(select(refused, math.nan, part) for part in origin.contact_velocity)
+    velocity, slips = (
+        pair and read_only(tuple(select(refused, math.nan, part) for part in pair))
+        for pair in (origin.contact_velocity, origin.slip_if_stuck)
     )
     sides = origin.one_sided and {
         name: read_only(select(refused, 0, side)) for name, side in origin.one_sided.items()
@@ -315,6 +320,7 @@ def origin_where_answered(origin: Reconstruction, status: Any) -> Reconstruction
         condition=read_only(condition),
         answers=read_only(answers),
         contact_velocity=velocity,
+        slip_if_stuck=slips,
         one_sided=sides,
     )
 

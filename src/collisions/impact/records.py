@@ -195,8 +195,9 @@ def from_record(record: Mapping[str, Any]) -> tuple[Inputs, str | None, Reconstr
             else status
         )
         refused = any(Status(code) > Status.ENERGY_GAIN for code in np.ravel(status).tolist())
-        velocity = _contact_velocity(found["contact_velocity"], np.shape(status))
-        origin = _origin(record["results"]["reconstruction"], velocity)
+        shape = np.shape(status)
+        velocity = _pair_of_cases(found["contact_velocity"], "contact_velocity", shape)
+        origin = _origin(record["results"]["reconstruction"], velocity, shape)
         if origin is None and velocity is not None:
             raise bad_record("it has a contact_velocity, and no reverse solver that found one")
         a, b = (vehicle_of_record(found[label], refused and origin is not None) for label in "ab")
@@ -292,7 +293,7 @@ def _check_texts(found: Mapping[str, Any], inputs: Inputs, results: Mapping[str,
                 )
 
 
-def _origin(found: Any, velocity: Any) -> Reconstruction | None:
+def _origin(found: Any, velocity: Any, shape: tuple[int, ...]) -> Reconstruction | None:
     if found is None:
         return None
     known = tuple(str(name) for name in found["known"])
@@ -310,6 +311,7 @@ def _origin(found: Any, velocity: Any) -> Reconstruction | None:
         regime=_stated(found.get("regime")),
         one_sided=_sides(found.get("one_sided")),
         forward_only=_flag(found.get("forward_only", False)),
+        slip_if_stuck=_pair_of_cases(found.get("slip_if_stuck"), "slip_if_stuck", shape),
         found=tuple(str(name) for name in found["found"]),
         given=_given_numbers(found["given"]),
         **{
@@ -369,19 +371,21 @@ def _sides(found: Any) -> dict[str, Any] | None:
     return sides
 
 
-def _contact_velocity(pair: Any, shape: tuple[int, ...]) -> Any:
-    """Closing speed and slip before as a reverse solver found them: one of each, or one for every
-    case.
+def _pair_of_cases(pair: Any, name: str, shape: tuple[int, ...]) -> Any:
+    """Two numbers that a reverse solver found, such as closing speed and slip before: one of each,
+    or one for every case; None where it found none.
     """
     if pair is None:
         return None
-    closing, slip = map(read_strict, pair)
-    if not all(isinstance(part, np.ndarray) or _is_number(part) for part in (closing, slip)):
-        raise bad_record(f"its contact_velocity is {shown(pair)}, which are no numbers")
-    if not np.shape(closing) == np.shape(slip) == shape:
-        raise bad_record("its contact_velocity is not that of its cases")
+    numbers = tuple(map(read_strict, pair)) if isinstance(pair, list | tuple) else ()
+    if len(numbers) != 2 or not all(
+        isinstance(part, np.ndarray) or _is_number(part) for part in numbers
+    ):
+        raise bad_record(f"its {name} is {shown(pair)}, which are no numbers")
+    if any(np.shape(part) != shape for part in numbers):
+        raise bad_record(f"its {name} is not that of its cases")
     return read_only(
-        tuple(part if isinstance(part, np.ndarray) else float(part) for part in (closing, slip))
+        tuple(part if isinstance(part, np.ndarray) else float(part) for part in numbers)
     )
 
 

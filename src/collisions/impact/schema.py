@@ -292,6 +292,7 @@ _RECONSTRUCTION = {
         ]
     },
     "forward_only": {"type": "boolean"},
+    "slip_if_stuck": {"anyOf": [_PAIR, NULL]},
     "found": {"type": "array", "items": TEXT},
     "given": {"type": "object", "additionalProperties": _VALUE},
     **{name: {"anyOf": [_VALUE, NULL]} for name in ("duration", "drag_a", "drag_b")},

@@ -4,6 +4,7 @@ followed it.
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -41,14 +42,15 @@ def force_time(
     impact: Impact, duration: Input, *, axes: Axes | None = None, units: UnitSystem | None = None
 ) -> Axes:
     """The normal force between the vehicles against time, with areas A1 of compression and A2 of
-    restitution, e = A2/A1.
+    restitution.
 
     Figures 3 and 4 of "Application of Impulse Momentum Theory to Vehicle Collisions". The areas are
     the impulses of the answer. The shape is assumed: the spring pulse on which ``left_out`` also
     bases its crush, a quarter of a sine up to the end of compression and another one down, with one
-    peak. Restitution then takes e times as long as compression: as long if elastic, no time if
-    plastic, as in the figure. The duration is assumed too; peak and mean force are inversely
-    proportional to it, and the impulse does not determine them.
+    peak. Restitution then takes A2/A1 times as long as compression: as long if elastic, no time if
+    plastic, as in the figure. That ratio is e, but under law "stronge", where the square of e is
+    the share of the work that restitution gives back. The duration is assumed too; peak and mean
+    force are inversely proportional to it, and the impulse does not determine them.
 
     Parameters
     ----------
@@ -111,6 +113,8 @@ def force_time(
     e = impact.restitution
     compression, restitution = impact.compression_impulse, impact.restitution_impulse
     turn = time * compression_time(e)
+    if impact.complete:
+        turn = time * compression / (compression + restitution)
     # An incomplete impact ends on the way up.
     top = min(turn, time)
     share = np.linspace(0.0, 1.0, _POINTS)
@@ -170,7 +174,9 @@ def force_time(
         xlim=(-0.04 * time * in_time, 1.08 * time * in_time), ylim=(0.0, 1.14 * peak * in_force)
     )
     axes.set(xlabel=labels.label("time", "duration"), ylabel=labels.label("normal force", "N"))
-    ratio = "e = A2/A1" if impact.complete else "e"
+    # Not under "stronge" where the slip stops or turns.
+    same = impact.complete and math.isclose(restitution, e * compression, rel_tol=1e-6)
+    ratio = "e = A2/A1" if same or e == 0.0 else "e"
     axes.set_title(
         f"{ratio} = {e:.3g} ({impact.kind})\nareas from the impact; shape and duration assumed",
         fontsize=10.5,

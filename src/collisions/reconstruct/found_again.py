@@ -146,6 +146,17 @@ def contradicted_origin(impact: Impact) -> Iterator[str]:
             f"its inputs leave the speeds known by {again.one_sided or 'both sides'}, and it says "
             f"{origin.one_sided or 'both sides'}"
         )
+    pairs = (origin.slip_if_stuck or (), again.slip_if_stuck or ())
+    scale = _SAME_VELOCITY * abs(impact.closing_speed)
+    if len(pairs[0]) != len(pairs[1]) or not all(
+        math.isclose(*ends, rel_tol=_SAME_VELOCITY, abs_tol=scale)
+        for ends in zip(*pairs, strict=True)
+    ):
+        said_of, found_of = (
+            "no contact that may have stuck" if not pair else f"a slip from {pair[0]} to {pair[1]}"
+            for pair in pairs
+        )
+        yield f"it says {said_of}, and solving it again finds {found_of}"
     if not _same_velocity(impact, origin.contact_velocity, again.contact_velocity):
         pair = origin.contact_velocity
         velocity = "none" if pair is None else " and ".join(f"{float(one):.6g}" for one in pair)

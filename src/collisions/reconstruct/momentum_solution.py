@@ -30,7 +30,7 @@ from ..quantities.units import Value, to_quantity
 from ..vehicle.drag import USUAL_DURATION
 from ..vehicle.tyres import Tyres
 from .momentum_others import other_velocity, tyres_may_turn
-from .momentum_tyres import neglected, what_is_sought
+from .momentum_tyres import neglected, other_course, what_is_sought
 from .momentum_vector import NEARLY_CANCELLING
 
 # The arguments that give attributes which may be None.
@@ -186,10 +186,10 @@ class MomentumSolution(Shown):
 
     @property
     def statements(self) -> tuple[str, ...]:
-        """What has to be said beside the numbers: that a speed is backwards, or that the courses
-        are near one line; without tyres, or without those of one vehicle,
+        """What has to be said beside the numbers: without tyres, or without those of one vehicle,
         by how much the speeds would differ if these wheels slid for 0.1 s, or the duration given,
-        with a drag of 0.7; that an impulse from outside is part of a PDOF; with tyres, which other
+        with a drag of 0.7; that a speed is backwards, that the courses are near one line, or that a
+        second course fits; that an impulse from outside is part of a PDOF; with tyres, which other
         velocities fit too, or that others may and were not looked for.
         """
         return self._stated_in(None)
@@ -198,7 +198,7 @@ class MomentumSolution(Shown):
         """The statements with their numbers in a system of units, by default that of the inputs."""
         say = Sentences(self._texts(), units)
         found = neglected(self, float(USUAL_DURATION), 0.7, lambda value, kind: say(value, kind, 2))
-        said = (*self._doubts(), *self._pushed())
+        said = (*self._doubts(say), *self._pushed())
         said = said if found is None else (found.sentence, *said)
         if not self.tyres:
             return said
@@ -207,8 +207,10 @@ class MomentumSolution(Shown):
             return *said, other.sentence(self, say)
         return (*said, self._not_looked_for()) if self._may_have_others() else said
 
-    def _doubts(self) -> Iterator[str]:
-        """That a speed is backwards along its course, and that the courses are near one line."""
+    def _doubts(self, say: Sentences) -> Iterator[str]:
+        """That a speed is backwards along its course, that the courses are near one line, and that
+        a second course fits.
+        """
         answered = np.less_equal(self.status, Status.ENERGY_GAIN)
         speeds = [name for name in self.unknowns if name.startswith("speed")]
         for name in speeds:
@@ -226,6 +228,26 @@ class MomentumSolution(Shown):
                 "course move both speeds far"
             )
             yield from in_cases(near, sentence)
+        yield from self._second_course(say)
+
+    def _second_course(self, say: Sentences) -> Iterator[str]:
+        """That a second course fits, of which ``course_near`` chose one."""
+        if what_is_sought(self) != "beside":
+            return
+        answered = np.less_equal(self.status, Status.ENERGY_GAIN)
+        speed, course = other_course(self)
+        name, of = (_of_vehicle(one) for one in self.unknowns)
+        # Backwards along its course it is none.
+        fits = answered & np.greater_equal(speed, 0.0)
+        two = f"two courses fit as the {of}, and `course_near` chose"
+        if np.ndim(fits) or self.tyres:
+            yield from in_cases(fits, f"{two}; look at the other too")
+        elif fits:
+            angle = math.remainder(float(course), math.tau)
+            yield (
+                f"{two}; with the other, {say(angle, 'angle', 4)}, the {name} is "
+                f"{say(float(speed), 'speed', 4)}"
+            )
 
     def _pushed(self) -> tuple[str, ...]:
         """That an impulse from outside is part of a PDOF, in a sentence."""

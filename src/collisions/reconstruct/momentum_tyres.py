@@ -203,13 +203,19 @@ def neglected(
         found = dict(moved(solution, push_x, push_y))
         changes = {name: _middle(change) for name, (change, _) in found.items()}
         shares = [_middle(share) for _, share in found.values()]
-    if not all(map(math.isfinite, (*changes.values(), *shares))):
-        return None
     parts = [
         f"the {_in_words(name)} would be {say(abs(change), _kind(name))} "
         f"{'more' if change > 0.0 else 'less'}"
         for name, change in changes.items()
     ]
+    no_course = what_is_sought(solution) == "beside" and _mostly_none(
+        solution, found[solution.unknowns[1]][0]
+    )
+    if no_course:
+        parts = [f"no {_in_words(solution.unknowns[1])} would fit what is known"]
+        shares = [math.inf]
+    elif not all(map(math.isfinite, (*changes.values(), *shares))):
+        return None
     medians = " (medians)" if np.ndim(solution.speed_a) else ""
     sentence = (
         f"found as an instant, which leaves out the tyres: if all wheels slid for {duration:.3g} s "
@@ -224,6 +230,12 @@ def neglected(
             f"`tyres_{label}=`"
         )
     return Neglect(changes, max(shares), sentence)
+
+
+def _mostly_none(solution: MomentumSolution, turn: Any) -> bool:
+    """Whether a course would turn to nowhere in half of the cases that have an answer."""
+    there = np.isfinite(getattr(solution, solution.unknowns[1]))
+    return bool(np.count_nonzero(there & np.isnan(turn)) >= max(0.5 * np.count_nonzero(there), 1))
 
 
 def what_is_sought(solution: MomentumSolution) -> Literal["speeds", "velocity", "beside"]:
@@ -263,16 +275,39 @@ def _whole(
 def _beside(
     solution: MomentumSolution, push_x: Any, push_y: Any
 ) -> Iterator[tuple[str, tuple[Any, Any]]]:
-    """The change of a speed and of the course of another, and each as a share of its velocity."""
+    """The change of a speed and of the course of another, and each as a share of its velocity; NaN
+    where no course balances what is across that of the speed.
+    """
     name, course = solution.unknowns
     axis, angle = getattr(solution, name.replace("speed", "course")), getattr(solution, course)
     other = course.replace("course", "speed")
+    size, own, its = (
+        getattr(solution, other),
+        _taken(solution, name),
+        _taken(solution, other),
+    )
     along = push_x * np.cos(axis) + push_y * np.sin(axis)
-    turned = (push_y * np.cos(axis) - push_x * np.sin(axis)) / np.cos(angle - axis)
-    change = -_taken(solution, name) * (along + np.sin(angle - axis) * turned)
-    turn = -_taken(solution, other) * turned / getattr(solution, other)
+    across = push_y * np.cos(axis) - push_x * np.sin(axis)
+    # Of the two courses that balance it, the one on the side of that found.
+    sine, cosine = np.sin(angle - axis), np.cos(angle - axis)
+    then = sine - its * across / size
+    turned = np.copysign(np.sqrt(1.0 - then * then), cosine)
+    change = -own * along - own / its * size * (turned - cosine)
+    turn = np.copysign(1.0, cosine) * (np.arcsin(then) - np.arcsin(sine))
     yield name, (change, abs(change / getattr(solution, name)))
     yield course, (turn, abs(turn))
+
+
+def other_course(solution: MomentumSolution) -> tuple[Any, Any]:
+    """Of a speed that was sought beside the course of another, both as they would be on the other
+    side of the first's course, where the same balance holds without tyres.
+    """
+    name, course = solution.unknowns
+    axis, angle = getattr(solution, name.replace("speed", "course")), getattr(solution, course)
+    size = getattr(solution, course.replace("course", "speed"))
+    shares = _taken(solution, name) / _taken(solution, course.replace("course", "speed"))
+    speed = getattr(solution, name) + 2.0 * shares * size * np.cos(angle - axis)
+    return speed, np.pi - angle + 2.0 * axis
 
 
 def _taken(solution: MomentumSolution, name: str) -> Any:

@@ -18,7 +18,7 @@ import numpy as np
 from ..engine.blocks import Part, in_parts, is_one_part
 from ..impact.impact import Impact
 from ..impact.inputs import TYRES, Inputs, Law, OnFailure, part_of, part_of_inputs, read_inputs
-from ..impact.instant import LOOKED_AROUND
+from ..impact.instant import LOOKED_AROUND, in_interval
 from ..impact.models import ECCENTRIC
 from ..impact.reconstruction import Reconstruction
 from ..impact.run import error_of, solve_inputs
@@ -284,6 +284,8 @@ class _Found(NamedTuple):
     approach: Any
     nearly: Any
     slip_after: Any
+    slip_least: Any
+    slip_most: Any
 
 
 def _answer(
@@ -381,6 +383,9 @@ def _answer(
         state_instant("planar")
     velocity = found.closing_speed, found.slip_before
     origin = origin_of(velocity, found.condition, found.count, sure)
+    if np.any(found.nearly):
+        slips = (cases.where(sure, one) for one in (found.slip_least, found.slip_most))
+        origin = replace(origin, slip_if_stuck=tuple(slips))
     motions = found[2:5], found[5:8]
     before = partial(inputs_of, motions, found.restitution)
     return finish(before, found.status, origin, on_failure, refusal, solve_case)
@@ -444,6 +449,8 @@ def _backwards(cases: Cases, looked: _Looked, inputs: Inputs, regime: Regime | N
         end.approach,
         nearly,
         end.slip,
+        np.where(nearly, low, np.nan),
+        np.where(nearly, high, np.nan),
     )
 
 
@@ -642,7 +649,7 @@ def _warn(cases: Cases, found: _Found, say: Sentences, whole: _Looked | None) ->
         where, which = "in a wide range", "follows the sign of that slip"
         if cases.shape is None and whole is not None:
             low, high = whole.end.slip_range()
-            where = _interval(float(low), float(high), say)
+            where = in_interval(float(low), float(high), lambda end: say(end, "speed", 4))
             which = "is that end of the range" if np.isinf(high - low) else which
         least = float(np.min(np.where(nearly, abs(found.slip_after), np.inf)))
         text = (
@@ -657,14 +664,6 @@ def _warn(cases: Cases, found: _Found, say: Sentences, whole: _Looked | None) ->
             "and the slip before is open"
         )
         warn_of_cases(warning, {sentence: cases.each(nearly)})
-
-
-def _interval(low: float, high: float, say: Sentences | None = None) -> str:
-    """An interval in words, of speeds where it is said how they are written; "" for all numbers."""
-    least, most = (f"{end:.4g}" if say is None else say(end, "speed", 4) for end in (low, high))
-    if math.isinf(low):
-        return "" if math.isinf(high) else f"below {most}"
-    return f"above {least}" if math.isinf(high) else f"between {least} and {most}"
 
 
 def _refusal(
@@ -757,7 +756,7 @@ def _stuck(end: End, slip: float, ends: int) -> str:
     )
     if math.isfinite(jamming):
         low, high = (max(low, jamming), high) if jamming < 0.0 else (low, min(high, jamming))
-    allowed = _interval(low, high)
+    allowed = in_interval(low, high, lambda end: f"{end:.4g}")
     # At rest the slip before is lost under the other law too.
     other = (
         f", or `law={KUDLICH_SLIBAR!r}` if that is the model"

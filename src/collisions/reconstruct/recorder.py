@@ -8,7 +8,7 @@ import math
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import Any, Literal, TypeVar
 
 import numpy as np
 
@@ -21,16 +21,18 @@ from ..messages.errors import (
     SuspectUnitsWarning,
 )
 from ..messages.hints import hinted
-from ..messages.warning import warn
+from ..messages.warning import Note, warn
 from ..quantities.attributes import Shown, derived, in_units_of, read_only
 from ..quantities.reading import ArgumentReader
 from ..quantities.refusals import must_be
-from ..quantities.tables import Cells, Part, Summary, all_numbers
+from ..quantities.tables import Cells, Part, Summary, all_numbers, as_sentence
 from ..quantities.units import Input, has_unit, shown, texts_of
 from ..reference import RECORDER_ACCURACY, RECORDER_RANGE, RECORDER_RESOLUTION
 from ..uncertainty import Censored, Normal, Uniform
+from ..uncertainty.distribution import Statement, found_by
 from .recorder_table import read_table
 
+T = TypeVar("T", bound=Statement)
 Polarity = Literal["49 CFR 563", "ISO 8855"]
 # Sign of a positive lateral reading, counted to the left.
 _LEFTWARD = {"49 CFR 563": -1.0, "ISO 8855": 1.0}
@@ -111,10 +113,24 @@ class RecordedPulse(Shown):
         """
         at = _largest(self.time, self.forward, self.left)
         forward, left = (
-            None if part is None else _evidence(part, at, self.ended)
-            for part in (self.forward, self.left)
+            None
+            if (found := None if part is None else _evidence(part, at, self.ended)) is None
+            else _with_note(found, name, part)
+            for name, part in (("forward", self.forward), ("left", self.left))
         )
         return forward, left
+
+    @property
+    def statements(self) -> tuple[str, ...]:
+        """What has to be said beside the numbers: that the record stops early, and that a component
+        goes beyond what recorders are asked to be exact for.
+        """
+        cut = () if self.ended else (_cut(self.time, self.delta_v),)
+        parts = {"forward": self.forward, "left": self.left}
+        beyond = (
+            _beyond(f"delta-V {name}", part) for name, part in parts.items() if part is not None
+        )
+        return *cut, *filter(None, beyond)
 
     def _summary(self, numbers: Cells) -> Summary:
         values = {
@@ -145,7 +161,8 @@ class RecordedPulse(Shown):
         ):
             if error is not None:
                 rows[name] += f", within {numbers.text(error, 'm/s')}"
-        return Summary(self._title, [Part(list(rows.items())), all_numbers(self._rows())])
+        parts = [Part(list(rows.items())), all_numbers(self._rows())]
+        return Summary(self._title, parts, [*map(as_sentence, self.statements)])
 
     def inputs(self, label: Literal["a", "b"]) -> dict[str, Any]:
         """The components with their errors, named as the arguments of ``reconstruct.speeds``, as
@@ -177,13 +194,16 @@ class RecordedPulse(Shown):
                 "`reconstruct.posterior`, which takes it as a bound",
                 code="pulse_cut",
             )
-        parts = {"forward": self.delta_v_forward, "left": self.delta_v_left}
-        values = {
-            f"delta_v_{part}_{label}": value for part, value in parts.items() if value is not None
+        parts = {
+            "forward": (self.delta_v_forward, self.forward),
+            "left": (self.delta_v_left, self.left),
         }
         found: dict[str, Any] = {
-            name: Uniform(value - _error(value), value + _error(value))
-            for name, value in values.items()
+            f"delta_v_{part}_{label}": _with_note(
+                Uniform(value - _error(value), value + _error(value)), part, samples
+            )
+            for part, (value, samples) in parts.items()
+            if value is not None
         }
         return found if self.place is None else found | {f"recorder_{label}": self.place}
 
@@ -407,15 +427,31 @@ def _need_none_before(times: Any, parts: Mapping[str, Any]) -> None:
             )
 
 
-def _warn_if_beyond(name: str, part: Any, bare: bool) -> None:
-    """Warn of a component beyond what recorders are asked to be exact for."""
+def _beyond(name: str, part: Any) -> str:
+    """That a component goes beyond what recorders are asked to be exact for; "" if it does not."""
     worst = float(part[np.argmax(abs(part))])
     if abs(worst) <= RECORDER_RANGE.high * (1.0 + 1e-9):
-        return
-    text = (
+        return ""
+    return (
         f"{name} goes to {3.6 * worst:.4g} km/h, and 49 CFR 563 asks recorders to be exact to "
-        f"{3.6 * RECORDER_RANGE.high:.0f} km/h"
+        f"{3.6 * RECORDER_RANGE.high:.0f} km/h: its error may be larger than what is stated of it"
     )
+
+
+def _with_note(reading: T, name: str, part: Any) -> T:
+    """The reading with what a study of it has to state."""
+    if not (text := _beyond(f"delta-V {name}", part)):
+        return reading
+    note = Note(OutOfRangeWarning, text, code="beyond_recorder")
+    return found_by("the recorder", {name: reading}, [note])[name]
+
+
+def _warn_if_beyond(name: str, part: Any, bare: bool) -> None:
+    """Warn of a component beyond what recorders are asked to be exact for."""
+    if not (beyond := _beyond(name, part)):
+        return
+    worst = float(part[np.argmax(abs(part))])
+    text = beyond.partition(":")[0]
     if bare:
         meant = f'{name}=pint.Quantity(values, "km/h")'
         text = f"{text}: its numbers are read as m/s; if another unit was meant, write `{meant}`"

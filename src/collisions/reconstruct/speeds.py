@@ -15,7 +15,7 @@ import numpy as np
 from ..impact.doubts import taken_to_stick
 from ..impact.impact import Impact
 from ..impact.inputs import TYRES, Inputs, Law, check_flag, read_inputs
-from ..impact.instant import looked_for
+from ..impact.instant import FROM_READINGS, looked_for
 from ..impact.reconstruction import KNOWN
 from ..impact.recorded import Axes
 from ..impact.time_resolved_inputs import read_lasting
@@ -314,6 +314,9 @@ def speeds(
 
     with np.errstate(all="ignore"):
         attempt = search.solved()
+        lasts = search.recorders is not None and np.any(search.numbers["duration"] > 0.0)
+        if lasts:
+            state_of_study(f"speeds {FROM_READINGS}", "looked_for")
         if search.inputs.tyres:
             names = (*search.names, *(search.recorders.names if search.recorders else ()))
             state_of_study(f"speeds with tyres: {looked_for(names)}", "looked_for")

@@ -33,7 +33,7 @@ from ..quantities.formatting import (
     with_decimals,
 )
 from ..quantities.reading import ArgumentReader
-from ..quantities.tables import as_sentence, label_of
+from ..quantities.tables import Sentences, as_sentence, label_of
 from ..quantities.units import Input
 from ..quantities.user_text import plain
 from ..reconstruct import MomentumSolution
@@ -376,7 +376,12 @@ def momentum_assumptions(
     sheet.heading("Assumptions")
     together = " The vehicles leave together." if "together" in (solution.given or {}) else ""
     sheet.say(f"{momentum_assumption(solution)}{together}")
-    for sentence in (*_momentum_neglect(sheet, solution, options), *solution._pushed()):
+    say = Sentences(solution._texts(), sheet.system.name)
+    for sentence in (
+        *_momentum_neglect(sheet, solution, options),
+        *solution._second_course(say),
+        *solution._pushed(),
+    ):
         sheet.say(as_sentence(sentence))
 
 
