@@ -1382,6 +1382,37 @@ def test_evidence_that_agrees_is_not_handed_on():
     assert result.statements == (f"correlation of the inputs as stated: x and y {rho:.15g}",)
 
 
+@pytest.mark.parametrize("study", ["propagate", "posterior"])
+def test_what_a_fit_found_together_is_not_taken_as_independent_in_silence(study):
+    """Also under other names; with the correlation, or of one unknown alone, nothing is said."""
+    found, matrix = simple()
+    rho = found.correlation["x", "y"]
+    assert abs(rho) > 0.1
+    inputs = {"v": found.inputs["x"], "w": found.inputs["y"]}
+
+    def studied(inputs, **more):
+        def model(**given):
+            return {
+                "o0": sum(row * one for row, one in zip(matrix[0], given.values(), strict=False))
+            }
+
+        if study == "propagate":
+            return propagate(model, inputs, seed=1, samples=64, **more)
+        return reconstruct.posterior(model, inputs, {"o0": (4.0, 1.0)}, samples=512, seed=1, **more)
+
+    said = f"found v and w with a correlation of {rho:.2g}, and this pair"
+    with pytest.warns(col.OutOfRangeWarning, match="correlation_left_out|of what it found") as told:
+        result = studied(inputs)
+    assert [one.message.code for one in told] == ["correlation_left_out"]
+    assert any(said in one for one in result.statements)
+    for silent in (
+        studied(inputs, correlation={("v", "w"): rho}),
+        studied({"v": inputs["v"], "w": Normal(1.0, 0.1)}),
+        studied(pickle.loads(pickle.dumps(inputs)), correlation={("w", "v"): rho}),
+    ):
+        assert not any("found v and w" in one for one in silent.statements)
+
+
 def test_a_unit_that_begins_with_1_comes_back():
     """A curvature: its text, 1.5 1/m, cannot be read, so it is handed on as a Quantity."""
     unit = pint.get_application_registry().Unit("1/m")

@@ -27,7 +27,7 @@ from ..quantities.refusals import LATERAL, must_be
 from ..quantities.strict_json import strict
 from ..quantities.tables import Cells, Part, Summary, as_sentence
 from ..quantities.units import shown, to_quantity
-from ..uncertainty.distribution import GivenUnit, found_by
+from ..uncertainty.distribution import GivenUnit, correlated, found_by
 from ..uncertainty.distributions import Normal
 from ..uncertainty.normal import score_of_coverage
 from .evidence import Observation
@@ -355,7 +355,8 @@ class Fit(SpeedsFound, Shown):
     @property
     def inputs(self) -> dict[str, Normal]:
         """Estimates by unknown, each a normal distribution within its bounds, as
-        ``uncertainty.propagate`` takes them; what was stated of the fit goes with them.
+        ``uncertainty.propagate`` takes them with ``correlation``; what was stated of the fit goes
+        with them. A study of them without their correlation warns of that.
 
         Where normal distributions with the standard errors do not describe the answer, as where
         the model bends, it is a ``NoSolutionError`` (code "not_normal").
@@ -371,7 +372,7 @@ class Fit(SpeedsFound, Shown):
                 code="not_normal",
             )
         normals = {name: self._as_normal(name) for name in self.names}
-        return found_by("a fit", normals, notes_of(self))
+        return correlated(found_by("a fit", normals, notes_of(self)), self.correlation)
 
     @property
     def consistent(self) -> bool | None:

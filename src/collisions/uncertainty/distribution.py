@@ -294,6 +294,43 @@ def from_numbers(
     return made
 
 
+# Of a note that says how what a fit found goes together; ``Joint`` tells whether a study knows.
+CORRELATED = "correlated"
+
+
+def correlated(
+    found: Mapping[str, T], correlation: Mapping[tuple[str, str], float]
+) -> dict[str, T]:
+    """The statements that a fit found, each with how their errors go together."""
+    return {
+        name: from_numbers(
+            type(one),
+            one.unit,
+            one._parts,
+            one._range,
+            one.source,
+            (
+                *one.notes,
+                Note(None, "", code=CORRELATED, fields={"name": name, "with": dict(correlation)}),
+            ),
+        )
+        for name, one in found.items()
+    }
+
+
+def correlation_found(one: Statement, other: Statement) -> float:
+    """The correlation of two inputs with which one fit found them; 0 where none is known."""
+    of_one, of_other = (
+        [note.fields for note in each.notes if note.code == CORRELATED] for each in (one, other)
+    )
+    for mine in of_one:
+        for its in of_other:
+            if mine["with"] == its["with"] and mine["name"] != its["name"]:
+                pair = mine["name"], its["name"]
+                return float(mine["with"].get(pair, mine["with"].get(pair[::-1], 0.0)))
+    return 0.0
+
+
 def found_by(study: str, found: Mapping[str, T], notes: Iterable[Note]) -> dict[str, T]:
     """The statements that a study found, each with what the study stated, but for its evidence
     agreeing with itself.
@@ -315,6 +352,8 @@ def notes_of_inputs(inputs: Iterable[tuple[str, Any]]) -> Iterator[Note]:
     notes: dict[tuple[str, str], Note] = {}
     for name, one in inputs:
         for note in one.notes if isinstance(one, Statement) else ():
+            if note.code == CORRELATED:
+                continue
             key = note.code, note.sentence
             notes[key] = note
             names.setdefault(key, []).append(name)

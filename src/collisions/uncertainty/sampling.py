@@ -5,7 +5,7 @@ input's share of the variance.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import combinations
 from typing import Any, TypeAlias
@@ -13,7 +13,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from ..engine.blocks import in_order
-from ..messages.errors import InputError
+from ..messages.errors import InputError, OutOfRangeWarning
 from ..messages.marked import type_of
 from ..messages.warning import Note
 from ..quantities.reading import is_whole
@@ -21,7 +21,7 @@ from ..quantities.refusals import must_be
 from ..quantities.units import shown
 from . import normal, turns
 from .designs import REPLICATES, Design
-from .distribution import at_probabilities, at_scores
+from .distribution import at_probabilities, at_scores, correlation_found
 from .distributions import Distribution, Samples
 from .model import Model
 from .normal_family import is_whole_normal
@@ -40,6 +40,8 @@ _STEPS = 1024  # equal shares of probability instead, where a quantile function 
 _ROUNDING = 64.0 * float(np.finfo(np.float64).eps)  # of what a model works out
 # Of statements of how inputs go together.
 TOGETHER = "inputs_together"
+# A correlation below this changes a range by less than its digits.
+_LOOSELY = 0.1
 _PIVOT_TOL = 1e-12  # of the correlation matrix, which has ones on its diagonal
 
 
@@ -142,7 +144,26 @@ class Joint:
             for group in self.rows
             if group[0] in self._columns and len(group) > 1
         )
-        return tuple(Note(None, one, code=TOGETHER) for one in said)
+        return *(Note(None, one, code=TOGETHER) for one in said), *self._apart()
+
+    def _apart(self) -> Iterator[Note]:
+        """That inputs which one fit found together were taken as independent."""
+        apart = {
+            (one, other): rho
+            for one, other in combinations(self.inputs, 2)
+            if frozenset((one, other)) not in self._pairs
+            and abs(rho := correlation_found(self.inputs[one], self.inputs[other])) >= _LOOSELY
+        }
+        if not apart:
+            return
+        one, other = most = max(apart, key=lambda pair: abs(apart[pair]))
+        pairs = "this pair" if len(apart) == 1 else f"{len(apart)} pairs"
+        yield Note(
+            OutOfRangeWarning,
+            f"one fit found {one} and {other} with a correlation of {apart[most]:.2g}, and {pairs} "
+            "of what it found were taken as independent: write `correlation=fit.correlation`",
+            code="correlation_left_out",
+        )
 
     def correlations(self) -> Any:
         """Pearson's correlations of the inputs themselves, in their order."""
