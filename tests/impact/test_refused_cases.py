@@ -738,6 +738,7 @@ WHOLE = (
     "unknowns",
     "choice",
     "reconstruction",
+    "left_backwards",
 )
 
 

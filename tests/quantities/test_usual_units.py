@@ -18,6 +18,12 @@ from collisions.uncertainty import Normal
 # Of the same powers as another spelling, multiplied in another order: what pint gives hangs on
 # which of the two a registry reads first, so each has a registry of its own.
 REORDERED = ("lbf*ft", "ft*lbf*s**2", "ft*lbf*s")
+# Those with another spelling among the usual ones, whichever came first in this process.
+SPELT_TWICE = [
+    text
+    for text in USUAL
+    if any(other != text and sorted(other.split("*")) == sorted(text.split("*")) for other in USUAL)
+]
 KINDS = ("kg", "m/s", "kg*m**2", "J", "rad", "degree", "", "a number with a unit")
 OTHER_TEXTS = (
     "80 km/h 5", "1 500 kg", "80", "", "kg", "80 KM/H", "5 Hz", "3 m/s/deg", "12 fortnight",
@@ -76,7 +82,7 @@ def readings(text):
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "text",
-    [*(f"0.7 {written}".strip() for written in USUAL if written not in REORDERED), *OTHER_TEXTS],
+    [*(f"0.7 {written}".strip() for written in USUAL if written not in SPELT_TWICE), *OTHER_TEXTS],
 )
 def test_whatever_is_read_or_refused_by_the_table_is_so_by_pint(text, monkeypatch):
     monkeypatch.setattr(units, "_is_unused", lambda: False)

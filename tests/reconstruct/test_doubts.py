@@ -2,6 +2,7 @@
 
 import json
 import math
+import warnings
 
 import numpy as np
 import pint
@@ -198,3 +199,15 @@ def test_a_study_of_readings_at_a_place_says_how_speeds_were_looked_for():
 
     study = uncertainty.propagate(model, {"restitution": uncertainty.Uniform(0.0, 0.2)}, samples=64)
     assert any("speeds from readings away from the centre" in one for one in study.statements)
+
+
+def test_a_refused_case_of_a_batch_is_stated_without_a_warning_of_numpy():
+    wall = col.Vehicle(mass=math.inf, yaw_inertia=math.inf, vx=0.0, vy=0.0, yaw_rate=0.0)
+    car = col.Vehicle(mass=1200.0, yaw_inertia=1800.0, vx=10.0, vy=0.0, yaw_rate=0.0, x=0.0, y=0.0)
+    point = (0.0, np.array([0.0, 0.0, math.inf], dtype=np.float32))
+    found = reconstruct.planar(
+        wall, car, closing_speed=1.0, normal=0.0, point=point, friction=0.0, on_failure="nan"
+    )
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert not any("approach" in one for one in found.statements)

@@ -108,7 +108,7 @@ def test_what_is_said_to_fit_does():
         others = [message for message in warned if message.code == "another_fits"]
         if not others:
             continue
-        (sentence,) = answer.statements
+        (sentence,) = (one for one in answer.statements if "fits too" in one or "fit too" in one)
         assert str(others[0]) == sentence.replace("`", "")
         for speed, course, apart in others_of(sentence):
             stated = {**given, f"speed_{label}": speed, f"course_{label}": course}
@@ -137,7 +137,9 @@ def test_the_truth_is_among_those_that_are_said_to_fit():
     checked = 0
     for _, _, _, answer, warned, off in missed():
         if any(message.code == "another_fits" for message in warned):
-            (sentence,) = answer.statements
+            (sentence,) = (
+                one for one in answer.statements if "fits too" in one or "fit too" in one
+            )
             assert min(abs(one[2] - off) for one in others_of(sentence)) < 1e-3
             checked += 1
     assert checked >= 15
@@ -182,7 +184,8 @@ def test_a_batch_counts_the_cases():
     assert str(others[0]).startswith("1 of 2 cases: ")
     alone, _ = answered(**known, **{**given, name: float(given[name][0])})
     assert getattr(batch, f"speed_{label}")[0] == pytest.approx(getattr(alone, f"speed_{label}"))
-    assert batch.statements == alone.statements
+    alike = [one.partition(" cases, ")[2] or one for one in batch.statements]
+    assert tuple(alike) == alone.statements
 
 
 @pytest.mark.slow
@@ -230,7 +233,8 @@ def test_two_speeds_along_nearly_one_line_say_that_others_were_not_looked_for():
         after = dict(zip(("speed_a_after", "speed_b_after"), pair, strict=True))
         again, _ = answered(**known, **after)
         assert (again.speed_a, again.speed_b) == pytest.approx(tuple(before.values()), abs=2e-4)
-    (sentence,) = found.statements
+    near_line, sentence = found.statements
+    assert "within 10 degrees of one line" in near_line
     assert "another pair may fit with the tyres, which was not looked for" in sentence
     wide, _ = answered(**{**known, "course_b_after": 1.0}, speed_a=12.4, speed_b=8.6)
     assert wide.statements == ()

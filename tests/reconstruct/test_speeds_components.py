@@ -458,7 +458,7 @@ def test_forward_only_is_said_and_warns_of_samples_of_two_answers():
         )
         return " ".join(got.statements)
 
-    left = "backwards along its course was left out"
+    left = "backwards along its course: left out"
     mixed, ahead, none = codes(29.5, 0.6), codes(40.0, 0.5), codes(36.0, 0.5, forward_only=False)
     assert "takes the other: the samples are no range of one answer" in mixed
     assert left in mixed
@@ -466,17 +466,19 @@ def test_forward_only_is_said_and_warns_of_samples_of_two_answers():
     assert left not in none
     assert "no range" not in ahead + none
     (one,) = fold(40.0, forward_only=True)
-    said = "answers in which a vehicle goes backwards along its course were left out"
+    said = "one more answer fits, in which a vehicle goes backwards along its course: left out"
     assert any(said in line for line in one.statements)
     assert said.capitalize() in str(one.summary())
     again = col.Impact.from_dict(json.loads(json.dumps(one.to_dict())))
-    assert again.reconstruction.forward_only
+    assert again.reconstruction.left_backwards == one.reconstruction.left_backwards == 1
+    assert not any("left out (" in line for line in fold(28.5, forward_only=True)[0].statements)
     for page in (col.explain(again), col.report(again)):
         assert said.capitalize() in str(page)
     altered = one.to_dict()
-    altered["results"]["reconstruction"]["forward_only"] = False
-    with pytest.raises(col.InputError, match="2 answers, and it says 1"):
-        col.report(col.Impact.from_dict(altered))
+    for count, said in ((None, "2 answers, and it says 1"), (3, "says that 3 answers were left")):
+        altered["results"]["reconstruction"]["left_backwards"] = count
+        with pytest.raises(col.InputError, match=said):
+            col.report(col.Impact.from_dict(altered))
     hit = col.eccentric(A.replace(vx=12.0), B.replace(vx=-5.0), 0.1, **CONTACT, friction=0.5)
     given = {"course_a": 0.0, "course_b": 0.0, "restitution": 0.1, **CONTACT, "friction": 0.5}
     known = {"delta_v_b": hit.b.delta_v, "forward_only": True}

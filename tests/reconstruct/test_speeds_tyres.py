@@ -206,7 +206,9 @@ def test_speeds_takes_tyres(names):
         [one for one in best.statements if one.startswith(f"found with tyres: {what}")]
         for what in ("answers are looked for", "of delta-V that leaves out")
     )
-    assert (len(looked), len(left), len(best.statements)) == (1, 1, 2)
+    assert (len(looked), len(left)) == (1, 1)
+    backwards = [one for one in best.statements if "goes backwards along its course: left" in one]
+    assert len(best.statements) == 2 + len(backwards)
     page = col.report(best, form="markdown")
     assert "Found with tyres: answers are looked for" in page
     for name, value in known.items():
@@ -222,7 +224,7 @@ def test_speeds_takes_tyres(names):
         forward_only=True,
     )
     assert min(apart_from_truth(one) for one in instants) > 0.01
-    assert len(instants[0].statements) == 1
+    assert sum("found as an instant" in one for one in instants[0].statements) == 1
 
 
 @pytest.mark.slow
@@ -589,14 +591,14 @@ def test_each_root_is_given_once():
         Root(12.20078, 17.56466, 0.1, 2.3e6, 13.5),
         Root(12.20077, 17.56472, 0.1, 2.3e6, 13.5),
     ]
-    found = in_order(scene, roots, False, SETTLED)
+    found = in_order(scene, roots, SETTLED)
     assert [float(root.speed_b) for root, _ in found] == [7.3, -5.2, 17.56466]
     # Roots of the algebra are right to rounding.
-    assert len(in_order(scene, roots, False)) == 4
+    assert len(in_order(scene, roots)) == 4
     for condition in (math.inf, math.nan):
         twice = [Root(4.0, 0.0, 0.0, condition, 4.0), Root(4.0, 2.5e-15, 0.0, condition, 4.0)]
         for met in (0.0, SETTLED):
-            assert len(in_order(scene, twice, False, met)) == 1
+            assert len(in_order(scene, twice, met)) == 1
 
 
 @pytest.mark.slow

@@ -12,7 +12,7 @@ from typing import Any, Literal, TypeAlias, get_args
 from ..impact.impact import Impact
 from ..impact.inputs import PLACED
 from ..impact.reconstruction import as_bound, pushed_by_drag
-from ..impact.run import error_of
+from ..impact.run import error_of, gain_of_steps
 from ..kernels.contact_laws import RULES
 from ..messages.errors import InputError, Status
 from ..quantities.document import Document
@@ -265,7 +265,7 @@ def _with_gain(page: Page, impact: Impact) -> None:
             code="out_of_range",
             argument="impact",
         )
-    _energy_gain(page, impact.status, impact.energy_loss)
+    _energy_gain(page, impact.status, impact.energy_loss, gain_of_steps(impact.inputs))
     _impact(page, impact)
 
 
@@ -465,13 +465,15 @@ def _says_nothing(body: Vehicle, name: str) -> bool:
     return part.startswith(("delta_v", "pdof")) and math.isinf(body.mass)
 
 
-def _energy_gain(page: Page, status: Any, loss: float) -> None:
-    """Write the warning of an energy gain, before anything else."""
+def _energy_gain(page: Page, status: Any, loss: float, steps: str = "") -> None:
+    """Write the warning of an energy gain, before anything else; ``steps`` says why one that was
+    followed in time has it.
+    """
     if status == Status.ENERGY_GAIN:
+        why = "which no impact gives. The inputs do not go together; the numbers are shown as they"
         page.stress(
             f"Energy gain: the vehicles leave with {page.system.answer(-loss, 'energy')} more "
-            "than they came with, which no impact gives. The inputs do not go together; the "
-            "numbers are shown as they are."
+            f"than they came with{f': {steps}' if steps else f', {why} are'}."
         )
 
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from ..impact.run import gain_of_steps
 from ..impact.vehicle_result import VehicleResult
 from ..kernels.contact_laws import LAWS
 from ..quantities.directions import from_radians
@@ -38,8 +39,10 @@ def energy_gain(case: Case) -> Iterator[Measured]:
         hidden = -_lost_in_contact(case)[1]
         if hidden > _ROUNDING * abs(hidden + _energy_loss(case)):
             gain, whose = hidden, "without what the tyres took the contact ends"
+    steps = gain_of_steps(case.answer.inputs) if isinstance(case, ImpactCase) else ""
     yield Measured(
-        gain, f"{whose} with {case.text(gain, 'energy')} more than it began with; none can"
+        gain,
+        f"{whose} with {case.text(gain, 'energy')} more than it began with; {steps or 'none can'}",
     )
 
 

@@ -810,6 +810,7 @@ class Impact(_SpeedsBefore, Frozen, Summarized):
                     self.reconstruction.answers,
                     self.reconstruction.contact_velocity,
                     self.reconstruction.slip_if_stuck,
+                    self.reconstruction.left_backwards,
                     self.reconstruction.one_sided,
                     self.reconstruction.given,
                 )

@@ -50,10 +50,9 @@ LOOKED_AROUND = (
     "origins are looked for from those of an instant without tyres and from motions around them, "
     "as far as the tyres reach, and one that none of these leads to is missed"
 )
-# Of speeds that were asked for forwards alone.
-FORWARDS_ALONE = (
-    "answers in which a vehicle goes backwards along its course were left out, if there were any "
-    "(`forward_only=True`)"
+# Of speeds that were asked for forwards alone, after which answers.
+LEFT_BACKWARDS = (
+    "in which a vehicle goes backwards along its course: left out (`forward_only=True`)"
 )
 # Of the closing speed: by no more do motions after differ that nothing changed.
 _ROUNDING = 1e-9
@@ -171,15 +170,24 @@ def found_backwards(impact: Impact) -> tuple[str, ...]:
     """What has to be said of how an impact was found backwards, beside what an instant leaves
     out.
     """
-    origin = impact.reconstruction
-    forwards = (FORWARDS_ALONE,) if origin is not None and origin.forward_only else ()
     return (
-        *forwards,
+        *_forwards_alone(impact),
         *_may_have_stuck(impact),
         *_motions_changed(impact),
         *_found_from_readings(impact),
         *_found_with_tyres(impact),
     )
+
+
+def _forwards_alone(impact: Impact) -> tuple[str, ...]:
+    """How many answers were left out of speeds that were asked for forwards alone."""
+    left = 0 if impact.reconstruction is None else impact.reconstruction.left_backwards
+    if left is None or not np.any(left):
+        return ()
+    of = "one more answer fits" if np.ndim(left) or left == 1 else f"{left} more answers fit"
+    if np.ndim(left):
+        of = f"in {np.count_nonzero(left)} of {np.size(left)} cases, {of}"
+    return (f"{of}, {LEFT_BACKWARDS}",)
 
 
 def looked_for(known: Sequence[str]) -> str:
@@ -272,11 +280,14 @@ def _motions_changed(impact: Impact) -> tuple[str, ...]:
         if after.pivot is not None:
             given |= {"vx": 0.0, "vy": 0.0}
         place = (after.x, after.y) if after.pivot is None else after.pivot
-        # A wall has no place, and does not turn.
-        turn_x, turn_y = (
-            (0.0, 0.0) if place[0] is None else turning_velocity(given["yaw_rate"], *point, *place)
-        )
-        approach = approach + sign * (nx * (given["vx"] + turn_x) + ny * (given["vy"] + turn_y))
+        # A wall has no place, and does not turn. A refused case may have no number.
+        with np.errstate(all="ignore"):
+            turn_x, turn_y = (
+                (0.0, 0.0)
+                if place[0] is None
+                else turning_velocity(given["yaw_rate"], *point, *place)
+            )
+            approach = approach + sign * (nx * (given["vx"] + turn_x) + ny * (given["vy"] + turn_y))
     with np.errstate(all="ignore"):
         share = np.where(np.equal(impact.restitution, 0.0), approach / impact.closing_speed, 0.0)
     most = float(np.fmax.reduce(share, axis=None, initial=0.0))

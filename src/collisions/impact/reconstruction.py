@@ -57,9 +57,9 @@ class Reconstruction:
         Of ``speeds(..., slid="bound")``: for "speed_a" and "speed_b" which way the truth may lie
         from the speed found, if the contact slid: +1 at least that speed, -1 at most, 0 where it is
         known both ways. A speed is a size here, also of a vehicle that goes backwards.
-    forward_only : bool
-        Of ``speeds``: whether answers in which a vehicle goes backwards along its course were left
-        out, as the caller asked. ``answers`` are those that were not.
+    left_backwards : int or array of int, optional
+        Of ``speeds(..., forward_only=True)``: how many more answers there are, in which a vehicle
+        goes backwards along its course; ``answers`` are those that were not left out.
     slip_if_stuck : tuple of float or array [m/s], optional
         Of ``planar``: where the slip after is so small that it may be none, the least and the
         greatest slip before of a contact that stuck; NaN for other cases of a batch.
@@ -85,7 +85,7 @@ class Reconstruction:
     contact_velocity: tuple[Value, Value] | None = None
     regime: str | None = None
     one_sided: Mapping[str, Any] | None = None
-    forward_only: bool = False
+    left_backwards: Any = None
     slip_if_stuck: tuple[Value, Value] | None = None
     found: tuple[str, ...] = ()
     given: Mapping[str, Any] = field(default_factory=dict)
@@ -308,6 +308,7 @@ def origin_where_answered(origin: Reconstruction, status: Any) -> Reconstruction
         select(refused, math.nan, origin.condition),
         select(refused > several, 0, origin.answers),
     )
+    left = origin.left_backwards
     velocity, slips = (
         pair and read_only(tuple(select(refused, math.nan, part) for part in pair))
         for pair in (origin.contact_velocity, origin.slip_if_stuck)
@@ -321,6 +322,7 @@ def origin_where_answered(origin: Reconstruction, status: Any) -> Reconstruction
         answers=read_only(answers),
         contact_velocity=velocity,
         slip_if_stuck=slips,
+        left_backwards=None if left is None else read_only(select(refused, 0, left)),
         one_sided=sides,
     )
 

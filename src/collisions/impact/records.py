@@ -310,7 +310,7 @@ def _origin(found: Any, velocity: Any, shape: tuple[int, ...]) -> Reconstruction
         contact_velocity=velocity,
         regime=_stated(found.get("regime")),
         one_sided=_sides(found.get("one_sided")),
-        forward_only=_flag(found.get("forward_only", False)),
+        left_backwards=None if (left := found.get("left_backwards")) is None else _count(left),
         slip_if_stuck=_pair_of_cases(found.get("slip_if_stuck"), "slip_if_stuck", shape),
         found=tuple(str(name) for name in found["found"]),
         given=_given_numbers(found["given"]),
@@ -351,12 +351,6 @@ def _stated(found: Any) -> str | None:
     if found not in (None, "sticking", "sliding"):
         raise bad_record(f"a contact is stated to be sticking or sliding, not {shown(found)}")
     return None if found is None else str(found)
-
-
-def _flag(found: Any) -> bool:
-    if not isinstance(found, bool):
-        raise bad_record(f"forward_only is true or false, not {shown(found)}")
-    return found
 
 
 def _sides(found: Any) -> dict[str, Any] | None:

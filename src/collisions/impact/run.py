@@ -441,17 +441,22 @@ def _first_refusal(
     return InputError(f"{place}: {outcome.sentence}", code=outcome.label)
 
 
+def gain_of_steps(inputs: Inputs) -> str:
+    """Why a contact that was followed in steps gains energy, which its inputs do not; "" for
+    another.
+    """
+    if inputs.model != TIME_RESOLVED.name:
+        return ""
+    return (
+        "that is the error of the steps, where the contact gives back nearly all it took; take a "
+        f"restitution below 0.999, or give more steps than {inputs.steps}"
+    )
+
+
 def _warn_of_gain(what: str, gain: float, where: Any, inputs: Inputs) -> None:
-    if inputs.model == TIME_RESOLVED.name:
-        why = (
-            "that is the error of the steps, where the contact gives back nearly all it took; "
-            f"take a restitution below 0.999, or give more steps than {inputs.steps}"
-        )
-    else:
-        why = (
-            "this restitution and tangential impulse cannot occur together without a "
-            "source of energy; lower the restitution or the ratio, or take "
-            "`law='kudlich-slibar'` with `friction=`"
-        )
+    why = gain_of_steps(inputs) or (
+        "this restitution and tangential impulse cannot occur together without a source of energy; "
+        "lower the restitution or the ratio, or take `law='kudlich-slibar'` with `friction=`"
+    )
     warning = EnergyGainWarning(f"{what}: {why}", code="energy_gain", gain=gain)
     warn_of_cases(warning, {f"the impact gains energy: {why}": where})

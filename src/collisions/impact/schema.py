@@ -291,7 +291,7 @@ _RECONSTRUCTION = {
             NULL,
         ]
     },
-    "forward_only": {"type": "boolean"},
+    "left_backwards": {"anyOf": [_each({"type": "integer", "minimum": 0}), NULL]},
     "slip_if_stuck": {"anyOf": [_PAIR, NULL]},
     "found": {"type": "array", "items": TEXT},
     "given": {"type": "object", "additionalProperties": _VALUE},

@@ -141,6 +141,11 @@ def contradicted_origin(impact: Impact) -> Iterator[str]:
         )
     if again.answers != origin.answers:
         yield f"its inputs have {again.answers} answers, and it says {origin.answers}"
+    if again.left_backwards != origin.left_backwards:
+        yield (
+            f"it says that {origin.left_backwards} answers were left out in which a vehicle goes "
+            f"backwards, and solving it again leaves out {again.left_backwards}"
+        )
     if again.one_sided != origin.one_sided:
         yield (
             f"its inputs leave the speeds known by {again.one_sided or 'both sides'}, and it says "
@@ -338,7 +343,7 @@ def _solved_again(impact: Impact, origin: Reconstruction, **options: Any) -> tup
         wheels["duration"] = given.get("recorder_duration", inputs.duration)
     # One that stands needs no course.
     bodies = {name: given.get(name) for name in ("course_a", "course_b")}
-    contact["forward_only"] = origin.forward_only
+    contact["forward_only"] = origin.left_backwards is not None
     # A friction that was found was given as infinite, or as one that may have been greater.
     rule_value = given.get(FRICTION, math.inf) if FRICTION in origin.found else inputs.rule_value
     more: dict[str, Any] = {**bodies, **contact, **known, **options, inputs.rule: rule_value}

@@ -49,7 +49,7 @@ from .common import (
 )
 from .momentum_others import other_velocity
 from .momentum_solution import MomentumSolution, Sensitivity
-from .momentum_tyres import MOST_CORRECTIONS, Lasting, read_tyres
+from .momentum_tyres import MOST_CORRECTIONS, TURN_ROUND, Lasting, read_tyres, why_it_moves
 from .momentum_vector import NEARLY_CANCELLING, Beside, Whole, sought_course, without_course
 
 _SPEEDS = ("speed_a", "speed_b", "speed_a_after", "speed_b_after")
@@ -869,15 +869,8 @@ def _warn(
 
     near: Any = False
     if turning is not None:
-        speed, course = solution.unknowns
         cancels = isinstance(turning, Whole)
-        sentence = (
-            f"the momenta that leave {speed} and its course nearly cancel, and small errors of "
-            "them move both far"
-            if cancels
-            else f"{course} is within 10 degrees of a right angle to that of {speed}, and small "
-            "errors move both far, or to the other course that fits"
-        )
+        sentence = why_it_moves(solution)
         say(
             IllConditionedWarning,
             sure & (found["condition"] > NEARLY_CANCELLING),
@@ -897,10 +890,8 @@ def _warn(
             _largest_by_degree(answer, row, near, texts)
             for answer, row in solution.sensitivity.items()
         )
+        sentence = why_it_moves(solution)
         courses = f"{' and '.join(solution.unknowns).replace('speed', 'course')} are"
-        sentence = (
-            f"{courses} within 10 degrees of one line, and small errors of a course move both far"
-        )
         text = (
             f"{courses} {degrees:.2g} degrees from one line (condition {{:.3g}}): {numbers}; an "
             "in-line method may tell more"
@@ -917,8 +908,7 @@ def _warn(
     # A velocity that is sought whole is never backwards along its course.
     speeds = [name for name in solution.unknowns if name.startswith("speed")]
     for name in speeds if not isinstance(turning, Whole) else ():
-        cure = "backwards along its course; check the courses, or turn its course by 180 deg"
-        text, sentence = f"{name} = {{}}: {cure}", f"{name} is below 0, {cure}"
+        text, sentence = f"{name} = {{}}: {TURN_ROUND}", f"{name} is below 0, {TURN_ROUND}"
         # A negative speed within rounding of 0 is not a backward motion.
         say(
             OutOfRangeWarning,

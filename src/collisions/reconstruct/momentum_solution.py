@@ -30,7 +30,13 @@ from ..quantities.units import Value, to_quantity
 from ..vehicle.drag import USUAL_DURATION
 from ..vehicle.tyres import Tyres
 from .momentum_others import other_velocity, tyres_may_turn
-from .momentum_tyres import neglected, other_course, what_is_sought
+from .momentum_tyres import (
+    TURN_ROUND,
+    neglected,
+    other_course,
+    what_is_sought,
+    why_it_moves,
+)
 from .momentum_vector import NEARLY_CANCELLING
 
 # The arguments that give attributes which may be None.
@@ -208,26 +214,20 @@ class MomentumSolution(Shown):
         return (*said, self._not_looked_for()) if self._may_have_others() else said
 
     def _doubts(self, say: Sentences) -> Iterator[str]:
-        """That a speed is backwards along its course, that the courses are near one line, and that
-        a second course fits.
+        """That a speed is backwards along its course, that small errors move the answer far, and
+        that a second course fits.
         """
         answered = np.less_equal(self.status, Status.ENERGY_GAIN)
         speeds = [name for name in self.unknowns if name.startswith("speed")]
-        for name in speeds:
-            sentence = (
-                f"{name} is below 0: backwards along its course; check the courses, or turn its "
-                "course by 180 deg"
-            )
-            yield from in_cases(answered & np.less(getattr(self, name), -BACKWARDS), sentence)
+        for name in speeds if what_is_sought(self) != "velocity" else ():
+            backwards = answered & np.less(getattr(self, name), -BACKWARDS)
+            yield from in_cases(backwards, f"{name} is below 0: {TURN_ROUND}")
         if len(speeds) == 2:
             one, other = (getattr(self, name.replace("speed", "course")) for name in speeds)
-            near = answered & np.less(from_one_line(one, other), NEARLY_COLLINEAR)
-            sentence = (
-                f"{' and '.join(speeds).replace('speed', 'course')} are within "
-                f"{math.degrees(NEARLY_COLLINEAR):.2g} degrees of one line, and small errors of a "
-                "course move both speeds far"
-            )
-            yield from in_cases(near, sentence)
+            moves = np.less(from_one_line(one, other), NEARLY_COLLINEAR)
+        else:
+            moves = np.greater(self.condition, NEARLY_CANCELLING)
+        yield from in_cases(answered & moves, why_it_moves(self))
         yield from self._second_course(say)
 
     def _second_course(self, say: Sentences) -> Iterator[str]:

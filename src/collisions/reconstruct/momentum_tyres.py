@@ -232,6 +232,32 @@ def neglected(
     return Neglect(changes, max(shares), sentence)
 
 
+# Of a speed below 0.
+TURN_ROUND = "backwards along its course; check the courses, or turn its course by 180 deg"
+
+
+def why_it_moves(solution: MomentumSolution) -> str:
+    """Why an ill-conditioned answer moves far, by what was sought."""
+    one, other = solution.unknowns
+    match what_is_sought(solution):
+        case "speeds":
+            courses = " and ".join(solution.unknowns).replace("speed", "course")
+            return (
+                f"{courses} are within 10 degrees of one line, and small errors of a course move "
+                "both far"
+            )
+        case "velocity":
+            return (
+                f"the momenta that leave {one} and its course nearly cancel, and small errors of "
+                "them move both far"
+            )
+        case "beside":
+            return (
+                f"{other} is within 10 degrees of a right angle to that of {one}, and small "
+                "errors move both far, or to the other course that fits"
+            )
+
+
 def _mostly_none(solution: MomentumSolution, turn: Any) -> bool:
     """Whether a course would turn to nowhere in half of the cases that have an answer."""
     there = np.isfinite(getattr(solution, solution.unknowns[1]))

@@ -16,7 +16,7 @@ import numpy as np
 from ..impact.doubts import MAY_SLIDE
 from ..impact.impact import Impact
 from ..impact.inputs import Inputs
-from ..impact.instant import looked_for
+from ..impact.instant import LEFT_BACKWARDS, looked_for
 from ..impact.reconstruction import NOT_THIS, Reconstruction, bounds_of
 from ..impact.run import error_of, warn_of_refusals
 from ..kernels.contact_laws import FRICTION
@@ -176,7 +176,7 @@ def answers_of(
         if own is not None:
             origin = replace(origin, regime=own.stated, one_sided=_sides(own, cases, root, there))
         if search.forward_only:
-            origin = replace(origin, forward_only=True)
+            origin = replace(origin, left_backwards=cases.counts(all_count - count))
         impact = run_forward(
             partial(inputs_of, root), status, origin, None if cases.shape is None else "nan"
         )
@@ -556,10 +556,7 @@ def _say_what_is_left_out(cases: Cases, ranks: list[Any], count: Any, all_count:
         warn_of_cases(warning, {text: cases.each(alone)})
     others = (count > 0) & (all_count > count)
     if np.any(others):
-        text = (
-            "an answer in which a vehicle goes backwards along its course was left out "
-            "(`forward_only=True`), and there is another"
-        )
+        text = f"one more answer fits, {LEFT_BACKWARDS}"
         state_of_cases({text: cases.each(others)}, "left_backwards")
     for at, rank in enumerate(ranks):
         own = np.broadcast_to(rank, np.shape(count))[count > at]

@@ -21,6 +21,7 @@ from ..impact.instant import LIMITED, found_backwards, neglected
 from ..impact.left_out import LeftOutVehicle, left_out, tyres_held, tyres_lacking
 from ..impact.models import BY_NAME
 from ..impact.reconstruction import number_of_text
+from ..impact.run import gain_of_steps
 from ..kernels.contact_laws import FRICTION, LAWS
 from ..messages.errors import Status
 from ..plot.canvas import who
@@ -115,11 +116,12 @@ _DRAG = tuple(
 def gain(sheet: Sheet, impact: Impact | MomentumSolution, loss: float) -> None:
     """Write the warning of an energy gain, before anything else."""
     if impact.status == Status.ENERGY_GAIN:
-        sheet.stress(
-            f"Energy gain of {sheet.system.answer(-loss, 'energy')}: {impact.status.sentence}, "
-            "which no impact gives. The inputs do not go together; the numbers are shown as "
-            "they are."
+        steps = gain_of_steps(impact.inputs) if isinstance(impact, Impact) else ""
+        why = steps or (
+            f"{impact.status.sentence}, which no impact gives. The inputs do not go together; the "
+            "numbers are shown as they are"
         )
+        sheet.stress(f"Energy gain of {sheet.system.answer(-loss, 'energy')}: {why}.")
 
 
 def inputs(
