@@ -11,7 +11,7 @@ from __future__ import annotations
 import inspect
 import math
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields, is_dataclass
 from functools import cache
 from operator import attrgetter
@@ -845,6 +845,9 @@ def columns_of(name: str) -> list[dict[str, float]]:
                 for worse in (*SPOILT, *(factor * value for factor in FACTORS))
                 if worse != value
             ]
+    if name == "simulate":
+        # Each way to rest is integrated: a third of them, of every number some.
+        found = found[::3]
     return found + [{**base, **changes} for changes in call.changes]
 
 
@@ -958,15 +961,23 @@ LONG = (
     "restitution", "friction", "simulate",
     "time_resolved",
 )  # fmt: skip
-every_call = pytest.mark.parametrize(
-    "name",
-    [
-        pytest.param(
-            name, marks=pytest.mark.slow if name.startswith(LONG) and name not in EVERY_RUN else ()
-        )
-        for name in CALLS
-    ],
-)
+
+
+def of_calls(names: Iterable[str]) -> Any:
+    """A test of each of these calls, of which the long ones are slow."""
+    return pytest.mark.parametrize(
+        "name",
+        [
+            pytest.param(
+                name,
+                marks=pytest.mark.slow if name.startswith(LONG) and name not in EVERY_RUN else (),
+            )
+            for name in names
+        ],
+    )
+
+
+every_call = of_calls(CALLS)
 
 
 @pytest.mark.slow
@@ -1027,7 +1038,8 @@ def test_many_cases_and_float32(name: str, kind: Any) -> None:
         *({**call.base, number: large} for number in call.base for large in (1e18, 3e38)),
     ]
     # What solves by eigenvalues or integrates takes too long for so many.
-    repeats = 1 if "speeds" in name or name == "simulate" else BLOCK // len(columns) + 2
+    few = "speeds" in name or name.startswith(("simulate", "time_resolved"))
+    repeats = 1 if few else BLOCK // len(columns) + 2
     found = together(call, columns * repeats, kind=kind)
     shape = (len(columns) * repeats,)
     for part in parts(found):
@@ -1083,9 +1095,9 @@ def test_a_single_case_that_is_not_to_raise(name: str) -> None:
     assert given_back
 
 
-@every_call
+@of_calls(name for name in CALLS if name != "simulate")
 def test_columns_of_refused_cases(name: str) -> None:
-    """In a table too."""
+    """In a table too, which impacts have."""
     call, columns = CALLS[name], columns_of(name)
     for impact in parts(together(call, columns)):
         if isinstance(impact, col.Impact):

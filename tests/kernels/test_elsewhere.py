@@ -217,7 +217,7 @@ def test_every_derivative_of_an_answer_is_that_of_the_answer(jax, rule, law, cen
     for derivative in (jax.jacfwd, jax.jacrev):
         found = np.asarray(jax.vmap(derivative(outputs))(jax.numpy.asarray(cases)))
         assert np.all(np.isfinite(found))
-    for case, slopes in zip(cases[:12], found, strict=False):
+    for case, slopes in zip(cases[:6], found, strict=False):
         middle = kernel(*case.tolist(), *settings)
         for at in np.flatnonzero(np.isfinite(case)):
             step = 1e-6 * max(1.0, abs(case[at]))
@@ -240,7 +240,7 @@ def test_every_derivative_of_an_answer_is_that_of_the_answer(jax, rule, law, cen
                     )
                     assert slope == wanted, (name, at, case)
                     compared += 1
-    assert compared > 500
+    assert compared > 250
 
 
 @pytest.mark.slow

@@ -95,7 +95,7 @@ REFUSED = {
                 energy_loss="1 ft*lbf", restitution=0.1,
             forward_only=True, **CONTACT,
         ),
-        "fit speed_b = 60 mph and energy_loss = 1 ft·lbf with this",
+        "that fits speed_b = 60 mph and energy_loss = 1 ft·lbf a vehicle",
     ),
     # 1.8 = g (1 + e) / 2 with 0.3 below 3 m/s and 0.1 above.
     "inline": (

@@ -93,7 +93,7 @@ def test_the_forward_answer_is_found_again(kind):
     rng = random.Random(3901)
     answers, same, several, lost, refused = 0, 0, 0, 0, 0
     codes = set()
-    while answers < 60:
+    while answers < 25:
         (a, b), e, contact = drawn(rng)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", col.CollisionsWarning)

@@ -202,7 +202,9 @@ def places(record, path=()):
     "name", [name for name in KINDS if name not in ("chosen", "in time", "run", "run in line")]
 )
 def test_anything_in_any_place_is_read_or_refused(name):
-    """But for those that are slow to solve again."""
+    """But for those that are slow to solve again. Of the values each third stands in a place, and
+    each in every third place.
+    """
     with warnings.catch_warnings():
         # The normal of one is more than a turn.
         warnings.simplefilter("ignore", col.SuspectUnitsWarning)
@@ -210,8 +212,8 @@ def test_anything_in_any_place_is_read_or_refused(name):
     whole: dict = {}
     tampered(page, whole.update)
     refused = 0
-    for path in places(whole):
-        for other in OTHERS:
+    for number, path in enumerate(places(whole)):
+        for other in OTHERS[number % 3 :: 3]:
             record = put(copy.deepcopy(whole), path, other)
 
             def change(old, record=record):
@@ -227,7 +229,7 @@ def test_anything_in_any_place_is_read_or_refused(name):
             except Exception as error:
                 raise AssertionError(f"{path} as {json.dumps(str(other))[:40]}") from error
     # Nearly all: what is read is what no answer rests on, such as the version.
-    assert refused > 500
+    assert refused > 150
 
 
 def test_tyres_of_momentum_that_are_none_are_refused():

@@ -325,10 +325,10 @@ def scene(number):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("number", range(60))
+@pytest.mark.parametrize("number", range(30))
 def test_an_independent_integration_comes_to_the_same_rest(number):
     """scipy's method in another variable, by angles, wheel by wheel: the promised place and
-    heading, for 300 random scenes.
+    heading, for 30 random scenes.
     """
     start, tyres, surfaces, slope = scene(number)
     (x, y, heading), way, time, _ = integrated(start, tyres, surfaces, slope)

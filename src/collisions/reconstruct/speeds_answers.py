@@ -494,6 +494,14 @@ def _slid_either_way(
     )
 
 
+def _values(known: dict[str, Any], say: Sentences) -> dict[str, str]:
+    """What was known of a single case, by name, each with its number."""
+    return {
+        name: f"{name} = {say(value, 'energy' if name == 'energy_loss' else 'speed')}"
+        for name, value in known.items()
+    }
+
+
 def _backwards_alone(
     scene: Scene, found: list[tuple[Root, Any]], known: dict[str, Any], say: Sentences
 ) -> CollisionsError:
@@ -505,9 +513,10 @@ def _backwards_alone(
     ]
     return error_of(
         Status.CONTRADICTORY,
-        f"in every answer that fits {' and '.join(known)} a vehicle goes backwards along its "
-        f"course, and `forward_only=True` leaves those out: {', or '.join(told)}. Check the "
-        "courses, and the normal, which must point from A into B, or leave out `forward_only=True`",
+        f"in every answer that fits {' and '.join(_values(known, say).values())} a vehicle "
+        "goes backwards along its course, and `forward_only=True` leaves those out: "
+        f"{', or '.join(told)}. Check the courses, and the normal, which must point from A into B, "
+        "or leave out `forward_only=True`",
     )
 
 
@@ -607,10 +616,7 @@ def _refusal(
     """The error for a single case without a solution."""
     known = search.known
     names = " and ".join(known)
-    values = {
-        name: f"{name} = {say(value, 'energy' if name == 'energy_loss' else 'speed')}"
-        for name, value in known.items()
-    }
+    values = _values(known, say)
     speed_is_known = scene.kinds[0].startswith("speed")
     if status == Status.INFINITE_MASS:
         kind = next(kind for kind in known if kind.startswith("delta_v"))
