@@ -869,8 +869,10 @@ class Impact(_SpeedsBefore, Frozen, Summarized):
         if origin is None or not any(map(np.any, (origin.one_sided or {}).values())):
             return ()
         if not isinstance(self.status, Status):
+            sides = np.any([*map(np.asarray, (origin.one_sided or {}).values())], axis=0)
             return (
-                "Speeds before are known from one side only, as the contact slid, or may have: see "
+                f"In {np.count_nonzero(sides)} of {np.size(sides)} cases speeds before are known "
+                "from one side only, as the contact slid, or may have: see "
                 "reconstruction.one_sided.",
             )
         from .reconstruction import bounds_of

@@ -216,8 +216,7 @@ TIME_RESOLVED = Model(
     frozenset({"tolerance", "law", "incomplete"}),
     "Time-resolved: the contact is followed in small steps. A spring along the normal takes up "
     "the approach and gives back the share of its work that the restitution squared says; "
-    "Coulomb friction acts along the tangent, tyres act on the ground, and places and normal "
-    "move with the vehicles.",
+    "Coulomb friction acts along the tangent.",
 )
 BY_NAME = {model.name: model for model in (*MODELS, TIME_RESOLVED)}
 

@@ -85,10 +85,11 @@ _REGIMES = {
 }
 _GEOMETRIES = {
     "maximum_engagement": (
-        "those given are of maximum engagement; the start of the contact was found from them."
+        "those given are of maximum engagement; the start of the contact was found from them, and "
+        "places and normal move with the vehicles."
     ),
-    "first_contact": "those given are of first contact.",
-    "fixed": "they stay where they are during the contact.",
+    "first_contact": "those given are of first contact; places and normal move with the vehicles.",
+    "fixed": "places and normal stay as given during the contact.",
 }
 _TYRES = (
     "their mean force before, half-way through and after the contact, times its duration, acts "
@@ -524,14 +525,15 @@ def assumptions(
     )
     if found is None:
         lines.append(("Places:", _GEOMETRIES[impact.inputs.geometry or "maximum_engagement"]))
+        wheels = "no tyre acts on the ground while the contact lasts."
         if impact.inputs.tyres:
-            lines.append(
-                (
-                    "Tyres:",
-                    "wheels roll, brake and steer, with the force that they have on the way to "
-                    f"rest.{other}",
-                )
+            wheels = (
+                "wheels roll, brake and steer, with the force that they have on the way to rest."
+                f"{other}"
             )
+        elif impact.inputs.drag:
+            wheels = "every wheel slides with the drag given, whichever way it moves."
+        lines.append(("Tyres:", wheels))
         if impact.inputs.drag and any(vehicle.heading is None for vehicle in vehicles):
             lines.append(
                 (
