@@ -211,3 +211,48 @@ def test_a_refused_case_of_a_batch_is_stated_without_a_warning_of_numpy():
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert not any("approach" in one for one in found.statements)
+
+
+BOUNDED = {"delta_v_forward_a": "-24 km/h", "delta_v_left_a": "9 km/h"}
+
+
+@pytest.mark.filterwarnings("ignore::collisions.IllConditionedWarning")
+def test_a_bound_that_is_taken_for_a_value_is_warned_of_in_a_study():
+    """Of the speed as it is; as OneSided its own note says on which side."""
+
+    def bound(friction):
+        return reconstruct.speeds(A, B, **MET | BOUNDED, friction=friction, slid="bound")[0]
+
+    def value(friction):
+        return {"b": bound(friction).speed_b}
+
+    def sided(friction):
+        found = bound(friction)
+        side = found.reconstruction.one_sided["speed_b"]
+        return {"b": uncertainty.OneSided(found.speed_b, side)}
+
+    friction = {"friction": uncertainty.Uniform(0.38, 0.42)}
+    said = "64 of 64 cases .*one side only: hand it on as uncertainty.OneSided"
+    with pytest.warns(col.OutOfRangeWarning, match=said) as told:
+        study = uncertainty.propagate(value, friction, samples=64)
+    assert "bound_as_value" in {one.message.code for one in told}
+    assert any("hand it on as uncertainty.OneSided" in one for one in study.statements)
+    with pytest.warns(col.OutOfRangeWarning, match="hand it on"):
+        reconstruct.posterior(value, friction, {"b": (value(0.4)["b"], 1.0)}, samples=512, seed=1)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", col.OutOfRangeWarning)
+        study = uncertainty.propagate(sided, friction, samples=64)
+        bound(0.4)
+    assert any("as at least its value" in one for one in study.statements)
+    assert not any("hand it on" in one for one in study.statements)
+
+
+def test_a_batch_of_no_case_has_nothing_to_doubt():
+    known = {**STUCK, "delta_v_forward_a": np.zeros(0), "delta_v_left_a": np.zeros(0)}
+    (found,) = reconstruct.speeds(A, B, **MET | known)
+    assert not any("impulse ratio" in one for one in found.statements)
+
+
+def test_a_number_of_numpy_is_named_as_it_is():
+    with pytest.raises(col.InputError, match=r"got -3\.0"):
+        A.replace(mass=np.float64(-3.0))

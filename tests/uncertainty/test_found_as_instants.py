@@ -8,7 +8,7 @@ import pytest
 import collisions as col
 from collisions import reconstruct
 from collisions.travel import Tyres
-from collisions.uncertainty import Normal, propagate
+from collisions.uncertainty import Normal, Uniform, propagate
 
 WHEELS = {
     "duration": 0.1,
@@ -120,3 +120,19 @@ def test_a_study_of_instants_says_so_once_and_warns_of_nothing(solve, mean):
 def test_one_case_that_is_no_study_states_its_own():
     impact = reconstruct.central(1500, 1300, va=12.0, vb=2.0, restitution=0.1)
     assert impact.statements[0].startswith("found as an instant")
+
+
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+@pytest.mark.parametrize("solver", [col.eccentric, col.solve], ids=["eccentric", "solve"])
+def test_a_posterior_over_an_instant_says_so_whoever_chose_it(solver):
+    """solve without a duration chooses among instants, with the same answer."""
+
+    def model(vx):
+        found = solver(A.replace(vx=vx), B.replace(vy=8.0), 0.1, **CONTACT, friction=0.5,
+                       on_failure="nan")  # fmt: skip
+        return {"delta_v": found.a.delta_v}
+
+    found = reconstruct.posterior(
+        model, {"vx": Uniform(5.0, 15.0)}, {"delta_v": (4.77, 0.3)}, samples=512, seed=1
+    )
+    assert any("every case as an instant, which leaves out the" in one for one in found.statements)

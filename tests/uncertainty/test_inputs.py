@@ -987,7 +987,7 @@ def test_equality_looks_at_every_part():
             Normal("1500 kg", "50 kg", truncate=(0, None)),
             "Normal(mean=1500 kg, sd=50 kg, truncate=(0 kg, None))",
         ),
-        (LogNormal(123456.7, 20000), "LogNormal(mean=123457, sd=20000)"),
+        (LogNormal(123456.7, 20000), "LogNormal(mean=123456.7, sd=20000)"),
         (Uniform("2 deg", "4 deg"), "Uniform(low=2 deg, high=4 deg)"),
         (Triangular(0.6, 0.7, 0.75), "Triangular(low=0.6, mode=0.7, high=0.75)"),
         (Interval("1400 kg", "1650 kg"), "Interval(low=1400 kg, high=1650 kg)"),
@@ -1164,3 +1164,22 @@ def test_a_part_without_the_unit_of_the_quantity_is_written_without_it():
     one._make(unit, location=50 / 3.6, scale=4 / 3.6, dof=4.0)
     assert repr(one) == "Tailed(location=50 km/h, scale=4 km/h, dof=4)"
     assert str(one) == "location 50 km/h, scale 4 km/h, shape 4"
+
+
+@pytest.mark.parametrize(
+    ("stated", "words"),
+    [
+        (Normal(4512345.67, 0.5), "4512345.67 ± 0.5"),
+        (Interval(100.001, 100.002), "100.001 to 100.002, no distribution assumed"),
+        (Uniform("12345.6 m", "12346.1 m"), "12345.6 to 12346.1 m, all values equally likely"),
+        (Triangular(100.01, 100.02, 100.04), "100.01 to 100.04, most likely 100.02"),
+        (Censored(low=4512345.1, high=4512346.2), "at least 4512345.1, at most 4512346.2"),
+        (Normal("50 km/h", "3 km/h"), "50 ± 3 km/h"),
+        (Normal(43.123456789, 7.6), "43.12 ± 7.6"),
+    ],
+)
+def test_numbers_are_printed_to_a_hundredth_of_what_is_between_them(stated, words):
+    """So that a page does not contradict itself; what is recorded has all digits."""
+    assert str(stated) == words
+    again = eval(repr(stated)) if stated.unit == "" else stated
+    assert again == stated

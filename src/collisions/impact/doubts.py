@@ -45,7 +45,7 @@ def doubts(impact: Impact) -> Iterator[str]:
     if taken_to_stick(impact):
         ratio = np.abs(impact.impulse_ratio)
         slides = answered & (ratio >= MAY_SLIDE) & np.equal(impact.regime, "sticking")
-        shown = float(np.max(np.where(slides, ratio, 0.0)))
+        shown = float(np.max(np.where(slides, ratio, 0.0), initial=0.0))
         sentence = (
             f"to stick, the contact needs an impulse ratio of {shown:.2f}, and contacts between "
             f"vehicles slide from {MAY_SLIDE:g} on; if it slid, {NOT_THIS}"

@@ -18,7 +18,8 @@ from .impact import Impact
 from .left_out import tyres_lacking
 from .run import state_refusals
 
-# Models that a caller chose; ``solve`` chooses by a tolerance.
+# Models that a caller chose; ``solve`` chooses one of them by a tolerance, unless a duration lets
+# it follow the contact in time.
 _INSTANTS = ("linear_central", "oblique_central", "eccentric")
 _LEFT = (
     "as an instant, which leaves out the tyres and the motion while the contact lasts; `left_out` "
@@ -58,9 +59,10 @@ def noted(impact: Impact, on_failure: Any = None) -> Impact:
     inputs = impact.inputs
     if on_failure == "nan":
         state_refusals(impact.status)
-    if inputs.model in _INSTANTS:
+    if inputs.model in _INSTANTS or (inputs.model == "solve" and inputs.duration is None):
         rest = _left_by_tyres(impact) if inputs.tyres else _LEFT_BY_PUSH if inputs.pushed else _LEFT
-        state_of_study(f"{inputs.model} solved every case {rest}", WORKED_BACK)
+        who = "solve answered" if inputs.model == "solve" else f"{inputs.model} solved"
+        state_of_study(f"{who} every case {rest}", WORKED_BACK)
     bound = inputs.rule_value
     if (type(bound) is float and bound < math.inf) or inputs.rule != FRICTION:
         return impact

@@ -28,6 +28,8 @@ STATED = 2.0
 NO_ANSWER = frozenset(
     {"refused_cases", "several_orders", "stuck_or_slid", "friction_differs", "only_backwards"}
 )
+# Of the warning that samples are known from one side only, which outputs that say so need not have.
+BOUND = "bound_as_value"
 # Of a statement for those alone who work back through a model from what was observed.
 WORKED_BACK = "worked_back"
 # Of the statement that what comes in another order has no answer.

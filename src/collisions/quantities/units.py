@@ -610,7 +610,9 @@ def shown(value: Any) -> str:
 def rendered(value: Any, longest: int = 80) -> str:
     """A short rendering of what was given, safe for any object."""
     try:
-        text = f"{value}" if is_quantity(value) else repr(value)
+        # numpy's own text of a number names its class.
+        plain = value.item() if isinstance(value, np.number) else value
+        text = f"{value}" if is_quantity(value) else repr(plain)
     except Exception:
         text = f"a {type(value).__name__}"
     return text if len(text) <= longest else text[: longest - 3] + "..."

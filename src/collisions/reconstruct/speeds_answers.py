@@ -28,7 +28,9 @@ from ..messages.errors import (
     OutOfRangeWarning,
 )
 from ..messages.warning import (
+    BOUND,
     answer_counts,
+    in_study,
     state_of_cases,
     warn_of_cases,
     warn_of_samples,
@@ -203,6 +205,7 @@ def answers_of(
         for at, (own, impact) in enumerate(zip(scenes, impacts, strict=True)):
             if own is not None and answer_counts(at):
                 _warn_of_slip(own, impact, cases)
+                _warn_of_bounds(impact, cases)
     if backward < 0.0:
         cure = (
             "backwards along its course; check the courses, and the normal, which must point "
@@ -266,6 +269,21 @@ def _if_it_slid(scene: ComponentScene, impact: Impact, say: Sentences) -> str:
         {f"speed_{label}": _told(end, say) for label, end in zip("ab", ends, strict=True)},
     )
     return " and ".join(bounds) or NOT_THIS
+
+
+def _warn_of_bounds(impact: Impact, cases: Cases) -> None:
+    """Warn a study, which would else take the end of a family for a value, of cases that are known
+    from one side only; outside of it the answer says so itself.
+    """
+    sides = getattr(impact.reconstruction, "one_sided", None) or {}
+    bound = np.any([np.not_equal(side, 0) for side in sides.values()], axis=0) if sides else False
+    if in_study() and np.any(bound):
+        text = (
+            "the contact slid, or may have, and a speed is known from one side only: hand it on as "
+            "`uncertainty.OneSided` with `reconstruction.one_sided`, or its range is that of the "
+            "least slip"
+        )
+        warn_of_cases(OutOfRangeWarning(text, code=BOUND), {text: cases.each(bound)})
 
 
 def _warn_of_slip(scene: ComponentScene, impact: Impact, cases: Cases) -> None:

@@ -207,10 +207,13 @@ def rests_on(result: Any, names: Names) -> str:
             verb = "was" if len(result.results) == 1 else "were"
             named = _begun(listed(map(plain, result.results)))
             worked = f" {named} {verb} worked out from that."
-        return (
-            f"What {len(result.observed)} observations leave of the ranges that were stated "
-            f"before them.{worked}"
+        count = len(result.observed)
+        what, them = (
+            ("one observation leaves", "it")
+            if count == 1
+            else (f"{count} observations leave", "them")
         )
+        return f"What {what} of the ranges that were stated before {them}.{worked}"
     if isinstance(result, MomentumSolution):
         outside = "" if result.outside_impulse_x is None else " and the stated impulse from outside"
         return (

@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import FrozenInstanceError
+from itertools import pairwise
 from typing import Any, ClassVar, TypeVar
 
 import numpy as np
@@ -33,6 +34,10 @@ from ..quantities.units import (
 )
 from .normal import both_tails
 
+# Digits of a number that its unit may have rounded.
+_ALL_DIGITS = 15
+# Of a spread, or of the error of a number: to that it is printed.
+_OF_SPREAD = 0.01
 _NAMED = 4  # inputs at most, beside what was stated of them
 
 
@@ -131,7 +136,7 @@ class Statement:
 
     def __repr__(self) -> str:
         shown = (
-            f"{name}={show(part, self._part_units.get(name, self.unit))}"
+            f"{name}={show(part, self._part_units.get(name, self.unit), within=0.0)}"
             for name, part in self._parts.items()
             if part is not None
         )
@@ -143,7 +148,11 @@ class Statement:
     def _written(self, words: str, parts: Mapping[str, Any]) -> str:
         """The numbers in these words, with the unit of a range at its end."""
         units = {name: self._part_units.get(name, self.unit) for name in parts}
-        text = words.format(**{name: show(part, units[name]) for name, part in parts.items()})
+        own = [part for name, part in parts.items() if name not in self._part_units]
+        within = narrowest(*(part for part in own if isinstance(part, float)))
+        text = words.format(
+            **{name: show(part, units[name], within) for name, part in parts.items()}
+        )
         unit = (
             f" {self.unit.written}"
             if isinstance(self.unit, GivenUnit)
@@ -394,18 +403,30 @@ def _plain_number(reader: ArgumentReader, given: Any, argument: str) -> Any:
     return found.astype(np.float64, copy=False) if isinstance(found, np.ndarray) else found
 
 
-def show(value: Any, unit: str) -> str:
+def show(value: Any, unit: str, within: float = math.inf) -> str:
     """A number of an input as people read it, in the unit it was given in: four digits, or all
-    before the point.
+    before the point, and more where it would be further than ``within`` [SI] from the number.
     """
     if isinstance(value, tuple):
-        return f"({', '.join(show(part, unit) for part in value)})"
+        return f"({', '.join(show(part, unit, within) for part in value)})"
     if not isinstance(value, float):
         return str(value)
     if isinstance(unit, GivenUnit):
+        within = within / abs(unit.factor)
         value, unit = value / unit.factor, unit.written
     text = f"{value:.0f}" if 1e4 <= abs(value) < 1e15 else f"{value:.4g}"
+    for digits in range(5, _ALL_DIGITS + 1):
+        if not abs(float(text) - value) > within:
+            break
+        text = f"{value:.{digits}g}"
     return f"{text} {unit}" if unit else text
+
+
+def narrowest(*numbers: float | None) -> float:
+    """To what the numbers of a statement are printed: a hundredth of what is between them."""
+    there = sorted(one for one in numbers if one is not None and math.isfinite(one))
+    apart = [more - less for less, more in pairwise(there) if more > less]
+    return _OF_SPREAD * min(apart, default=math.inf)
 
 
 def read_alike(

@@ -15,7 +15,15 @@ from ..messages.hints import hinted
 from ..quantities.attributes import read_only
 from ..quantities.refusals import must_be
 from ..quantities.units import Input
-from .distribution import Distribution, Statement, check_order, from_numbers, read_alike, show
+from .distribution import (
+    Distribution,
+    Statement,
+    check_order,
+    from_numbers,
+    narrowest,
+    read_alike,
+    show,
+)
 from .normal import power_of_two
 from .normal_family import LogNormal, Normal
 
@@ -260,7 +268,7 @@ class Samples(Distribution):
         )
 
     def __str__(self) -> str:
-        low, high = (show(end, self.unit) for end in self.support)
+        low, high = (show(end, self.unit, narrowest(*self.support)) for end in self.support)
         return f"one of {self.rows.size} values from {low} to {high}"
 
     def _at(self, below: Any, above: Any) -> Any:
@@ -411,6 +419,9 @@ class Censored(Statement):
 
     def __str__(self) -> str:
         bounds = (("at least", self.low), ("at most", self.high), ("±", self.error))
+        within = min(narrowest(self.low, self.high), narrowest(0.0, self.error))
         return ", ".join(
-            f"{word} {show(value, self.unit)}" for word, value in bounds if value is not None
+            f"{word} {show(value, self.unit, within)}"
+            for word, value in bounds
+            if value is not None
         )

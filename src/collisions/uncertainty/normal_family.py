@@ -22,7 +22,7 @@ from ..quantities.reading import ArgumentReader
 from ..quantities.refusals import must_be
 from ..quantities.sourced import source_of
 from ..quantities.units import Input
-from .distribution import Distribution, check_order, from_numbers, read_alike, show
+from .distribution import Distribution, check_order, from_numbers, narrowest, read_alike, show
 from .normal import cdf, density, power_of_two, quantile, score_of_coverage, survival
 
 # Positive nodes of the Gauss-Legendre rule of 12 points and their weights: numpy's come from
@@ -87,13 +87,20 @@ class NormalFamily(Distribution):
                 f"{{low}} to {{high}} ({100.0 * share:.10g} percent)", {"low": low, "high": high}
             )
         else:
-            mean, sd = (show(value, self.unit) for value in (self.given_mean, self.given_sd))
+            within = narrowest(self.given_mean, self.given_mean + self.given_sd)
+            mean, sd = (
+                show(value, self.unit, within) for value in (self.given_mean, self.given_sd)
+            )
             _, apart, unit = mean.partition(" ")
             text = f"{mean.removesuffix(apart + unit)} ± {sd}"
         ends = zip(("at least", "at most"), self.truncate or (), strict=False)
         parts = [
             text,
-            *(f"{bound} {show(end, self.unit)}" for bound, end in ends if end is not None),
+            *(
+                f"{bound} {show(end, self.unit, narrowest(self.mean, self.mean + self.sd))}"
+                for bound, end in ends
+                if end is not None
+            ),
         ]
         # A mean ± a deviation alone is taken to be of a normal distribution.
         if self._range is not None or self._log_sd:
@@ -132,7 +139,7 @@ class NormalFamily(Distribution):
         A drag factor that is said to lie between 0.65 and 0.85 in nineteen cases out of twenty.
 
         >>> Normal.between(0.65, 0.85, 0.95)
-        Normal(mean=0.75, sd=0.05102)
+        Normal(mean=0.75, sd=0.0510213456924654)
         >>> round(LogNormal.between("0.5 s", "2 s", 0.9).quantile(0.95), 12)
         2.0
         """

@@ -18,7 +18,7 @@ from ..messages.hints import hinted
 from ..messages.marked import type_of
 from ..messages.progress import reporter
 from ..messages.shares import in_percent
-from ..messages.warning import NO_ANSWER, Note, leave_to_outer, notes_of_samples, warn_of
+from ..messages.warning import BOUND, NO_ANSWER, Note, leave_to_outer, notes_of_samples, warn_of
 from ..quantities.reading import ArgumentReader, is_whole
 from ..quantities.refusals import must_be
 from ..quantities.settings import units_required
@@ -735,8 +735,10 @@ def _notes(
     """
     if not any(run.corrected for run in runs):
         leave_to_outer(model.noted)
+    # An output that says so has its own note of each side.
+    sided = any(isinstance(one, OneSidedOutput) for run in runs for one in run.outputs.values())
     notes = [
-        *notes_of_samples(model.noted),
+        *(note for note in notes_of_samples(model.noted) if not (sided and note.code == BOUND)),
         *(note for run in runs for note in one_sided_notes(run.outputs)),
         *(tail_notes(runs[0].outputs) if len(runs) == 1 else ()),
     ]
