@@ -351,3 +351,9 @@ def test_a_symbol_stands_for_one_thing(form):
     assert ("R_{Bx}" if form == "markdown" else "R_Bx") in str(col.explain(pinned, form=form))
     compressed = col.eccentric(a, b, 0.3, law="stronge", **contact)
     assert "W_c" in str(col.explain(compressed, form=form))
+    # A pivot at O, and an impulse from outside beside that of tyres.
+    held = {"tyres_b": Tyres(0.7, 1.0, 2.6, 1.5), "duration": 0.1}
+    both = str(
+        col.explain(col.eccentric(a, b.replace(pivot=(3, 1)), 0.3, **contact, **held), form=form)
+    )
+    assert ("Q}_{Bx}" if form == "markdown" else "Q_Bx") in both

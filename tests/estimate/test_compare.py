@@ -199,3 +199,35 @@ def test_errors_of_probabilities_are_those_of_the_evidence_passed_on(accounts):
     spread = np.std(weights / weights.sum(axis=1, keepdims=True), axis=0)
     # 100,000 draws tell a spread to 0.3 percent; the second order of the errors is as small.
     assert [found.probability_error[name] for name in "abc"] == pytest.approx(spread, rel=0.015)
+
+
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+def test_what_the_accounts_state_stands_in_the_comparison():
+    """Once where several state it, with their names; not that the evidence of each agrees."""
+    a = col.Vehicle(mass=1500, yaw_inertia=2500, x=-2.1, y=0.0, heading=0.0)
+    b = col.Vehicle(mass=1250, yaw_inertia=1900, x=0.9, y=-0.4, heading=math.pi / 2, vy=8.0)
+
+    def hit(normal):
+        def model(vx):
+            found = col.eccentric(a.replace(vx=vx), b, 0.1, normal=normal, point=(0.0, 0.2),
+                                  friction=0.5, on_failure="nan")  # fmt: skip
+            return {"delta_v": found.a.delta_v}
+
+        return posterior(
+            model, {"vx": Uniform(3.0, 25.0)}, {"delta_v": (5.0, 0.3)}, samples=512, seed=1
+        )
+
+    found = compare({"square": hit(0.0), "turned": hit(0.3)})
+    (said,) = (one for one in found.statements if "as an instant" in one)
+    assert said.startswith("square, turned: eccentric solved every case as an instant")
+    assert not any("the evidence agrees with" in one for one in found.statements)
+
+
+def test_a_prior_that_the_evidence_contradicts_is_named_as_one():
+    readings = {name: (6.0, 0.1) for name in "abc"}
+    with pytest.warns(col.CollisionsWarning, match="the furthest off is the prior of v"):
+        found = posterior(
+            lambda v: dict.fromkeys(readings, v), {"v": Normal(0, 1)}, readings, samples=512, seed=1
+        )
+    said = "contradicts itself, the model, the stated errors or the priors: a misfit"
+    assert any(said in one for one in found.statements)

@@ -227,8 +227,8 @@ def _until_slip_stops(page: Page, s: Symbols, k: Mobility) -> Expression | None:
         before = first + w / soft_2
     else:
         worked, before = g.squared() / (2.0 * soft), g / soft
-    # With impulses from outside it is not the energy absorbed at the end of compression.
-    name = "E_c" if k.push[0] is ZERO else "W_c"
+    # With impulses from outside, or where the contact ends before, it is not the energy absorbed.
+    name = "E_c" if k.push[0] is ZERO and s.impact.complete else "W_c"
     work = page.let("Work of compression along the normal", name, "energy", worked)
     if w.value > 0.0 and e.value * math.sqrt(2.0 * soft_2.value * work.value) <= -w.value:
         page.say(
@@ -491,9 +491,9 @@ def _work(page: Page, body: Body) -> Symbol:
         return work
     of_tyres: Expression = -work
     if "outside" in body.whence:
-        given = Symbol(rf"W_{{{label}O}}", side.outside_work, "energy")
+        given = Symbol(rf"W_{{{label}Q}}", side.outside_work, "energy")
         parts = [
-            Symbol(rf"\mathrm{{O}}_{{{label}{axis}}}", getattr(side, f"outside_{axis}"), kind)
+            Symbol(rf"\mathrm{{Q}}_{{{label}{axis}}}", getattr(side, f"outside_{axis}"), kind)
             for axis, kind in (("x", "impulse"), ("y", "impulse"), ("yaw", "angular momentum"))
         ]
         shown = ", ".join(page.shown(part) for part in parts)

@@ -13,13 +13,12 @@ from typing import Any
 from ..messages.errors import CollisionsWarning, InputError
 from ..messages.hints import hinted
 from ..messages.shares import chance
-from ..messages.warning import Note, warn_of
+from ..messages.warning import AGREES, Note, warn_of
 from ..quantities.reading import ArgumentReader
 from ..quantities.refusals import must_be
 from ..quantities.strict_json import strict
 from ..quantities.tables import Cells, Part, Summarized, Summary, as_sentence
 from ..quantities.units import shown
-from ..uncertainty.sampling import TOGETHER
 from .posterior_result import Posterior, notes_of
 
 _SUM_TOL = 1e-9  # of probabilities that were stated
@@ -195,13 +194,13 @@ def compare(
             "these accounts need not be good; look at the residuals of each"
         )
         notes.append(Note(CollisionsWarning, sentence, code="contradictory"))
-    given = [
-        f"{name}: {note.statement}"
-        for name, one in posteriors.items()
-        for note in notes_of(one)
-        # Also of what only some cases are warned of, and how the priors go together.
-        if note.warning or note.fields.get("cases") or note.code == TOGETHER
-    ]
+    # Of each account but that its evidence agrees; what several state stands once.
+    stated: dict[str, list[str]] = {}
+    for name, one in posteriors.items():
+        for note in notes_of(one):
+            if note.code != AGREES:
+                stated.setdefault(note.statement, []).append(name)
+    given = [f"{', '.join(names)}: {statement}" for statement, names in stated.items()]
     found = Comparison(
         probability=after,
         probability_error={name: math.hypot(*of_each) for name, of_each in moves.items()},

@@ -593,15 +593,19 @@ def agreement(
         chance_in_words(p_value),
     )
     chance = f"a misfit this large or larger has a chance of {text}"
+    with_priors = apart or any(one.is_prior for one in residuals.values())
+    rest = (
+        "the model, the stated errors {} the priors"
+        if with_priors
+        else "the model {} the stated errors"
+    )
     if p_value >= _WEAK:
-        with_priors = apart or any(one.is_prior for one in residuals.values())
         whom = "itself and the priors" if with_priors else "itself"
         return Note(None, f"the evidence agrees with {whom}: {chance}", code=AGREES)
     if p_value >= CONTRADICTION:
         return Note(
             None,
-            "the evidence agrees only weakly with itself, the model and the stated errors: "
-            f"{chance}",
+            f"the evidence agrees only weakly with itself, {rest.format('and')}: {chance}",
         )
     off = {
         f"the {name}" if one.is_prior else name: one.over_sigma for name, one in residuals.items()
@@ -609,7 +613,7 @@ def agreement(
     name, worst = max(off.items(), key=lambda item: abs(item[1]))
     return Note(
         CollisionsWarning,
-        f"the evidence contradicts itself, the model or the stated errors: {chance}",
+        f"the evidence contradicts itself, {rest.format('or')}: {chance}",
         f", and {CONTRADICTION} would pass{by}; the furthest off is {name}, by "
         f"{abs(worst):.3g} sigma{''.join(map(_turned, residuals.values()))}",
         "contradictory",
