@@ -224,7 +224,7 @@ def test_what_the_accounts_state_stands_in_the_comparison():
 
 
 def test_a_prior_that_the_evidence_contradicts_is_named_as_one():
-    readings = {name: (6.0, 0.1) for name in "abc"}
+    readings = dict.fromkeys("abc", (6.0, 0.1))
     with pytest.warns(col.CollisionsWarning, match="the furthest off is the prior of v"):
         found = posterior(
             lambda v: dict.fromkeys(readings, v), {"v": Normal(0, 1)}, readings, samples=512, seed=1

@@ -124,6 +124,18 @@ def test_a_contact_that_may_have_stuck_is_said_with_both_ends():
     many = reconstruct.planar(after_a, after_b, energy_loss=energies, **met)
     assert any(one.startswith("in 2 of 2 cases, the slip after") for one in many.statements)
     assert any(said in one for one in many.case(0).statements)
+    some = reconstruct.planar(
+        after_a,
+        after_b.replace(vy=np.array([5.0, 9.0])),
+        energy_loss=90e3,
+        **met,
+        on_failure="nan",
+    )
+    assert any(one.startswith("in 1 of 2 cases, the slip after") for one in some.statements)
+    for i in range(2):
+        case = some.case(i)
+        assert (case.reconstruction.slip_if_stuck is None) == (i == 1)
+        col.report(col.Impact.from_dict(json.loads(json.dumps(case.to_dict()))))
 
 
 KEPT_SPEED = {

@@ -284,6 +284,8 @@ def part_of_origin(
 ) -> Reconstruction:
     """That of some cases of a batch: a friction that was found of others alone was given here."""
     part: Reconstruction = part_of(origin, take)
+    if part.slip_if_stuck is not None and np.all(np.isnan(part.slip_if_stuck)):
+        part = replace(part, slip_if_stuck=None)
     if FRICTION not in origin.found or not isinstance(rule_value, np.ndarray):
         return part
     given = np.asarray(origin.given.get(FRICTION, math.inf), dtype=rule_value.dtype)

@@ -310,7 +310,7 @@ def _origin(found: Any, velocity: Any, shape: tuple[int, ...]) -> Reconstruction
         contact_velocity=velocity,
         regime=_stated(found.get("regime")),
         one_sided=_sides(found.get("one_sided")),
-        left_backwards=None if (left := found.get("left_backwards")) is None else _count(left),
+        left_backwards=_count_or_none(found.get("left_backwards")),
         slip_if_stuck=_pair_of_cases(found.get("slip_if_stuck"), "slip_if_stuck", shape),
         found=tuple(str(name) for name in found["found"]),
         given=_given_numbers(found["given"]),
@@ -571,6 +571,16 @@ def _result(value: Any) -> Any:
     if isinstance(value, (Reconstruction, Pulse)):
         return {f.name: strict(getattr(value, f.name)) for f in fields(value)}
     return strict(value)
+
+
+def _count_or_none(value: Any) -> Any:
+    """A number of answers, or one for each case; None where none were left out."""
+    if value is None:
+        return None
+    count = _count(value)
+    if not np.all(np.asarray(count) >= 0):
+        raise bad_record(f"{shown(value)} is no number of answers")
+    return count
 
 
 def _count(value: Any) -> Any:
