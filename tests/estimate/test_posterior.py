@@ -1405,3 +1405,21 @@ def test_what_lies_ninety_deviations_off_is_reached():
     )
     mean, deviation = 90.0 / (1.0 + 1e-4), 0.01 / math.sqrt(1.0 + 1e-4)
     assert found["x"].mean == pytest.approx(mean, abs=deviation)
+
+
+def test_what_says_all_but_the_sign_is_not_said_to_say_nothing():
+    """Mean and variance are those of the prior, and nearly all of its range is excluded."""
+    found = posterior(
+        lambda x: {"y": x**2}, {"x": Normal(0, 2)}, {"y": (4.0, 0.1)}, samples=2048, seed=1
+    )
+    assert abs(found.shrinkage["x"]) < 0.1
+    assert found.prior_only == ()
+    assert not any("next to nothing" in one for one in found.statements)
+    nothing = posterior(
+        lambda x, y: {"y": y + 0.0 * x},
+        {"x": Normal(0, 2), "y": Normal(4, 1)},
+        {"y": (4.0, 0.1)},
+        samples=512,
+        seed=1,
+    )
+    assert nothing.prior_only == ("x",)

@@ -6,6 +6,7 @@ import math
 
 import mpmath
 import numpy as np
+import pint
 import pytest
 
 import collisions as col
@@ -142,3 +143,37 @@ def test_methods_without_samples_say_what_to_take(inputs, method, text):
         with pytest.raises(col.InputError, match=text) as caught:
             asked(lambda at: at > 1.0)
         assert caught.value.code == "not_sampled"
+
+
+def test_a_condition_on_a_direction_is_asked_of_what_the_model_gives():
+    """Near half a turn the range is counted beyond it, and the condition not: against the normal
+    distribution round the circle.
+    """
+    spread = math.radians(8.0)
+
+    def model(x):
+        around = np.mod(x + math.pi, math.tau) - math.pi
+        return {"course": pint.Quantity(around, "rad")}
+
+    given = {"x": Normal(math.radians(-170.0), spread)}
+    found = propagate(model, given, seed=1)
+    assert found["course"].interval()[0] < -math.pi
+
+    def below(degrees):
+        return 0.5 * math.erfc(-math.radians(degrees + 170.0) / spread / math.sqrt(2.0))
+
+    for condition, exact in (
+        (lambda course: course > 0.0, below(-180.0)),
+        (lambda course: course > math.radians(170.0), below(-180.0) - below(-190.0)),
+        (
+            lambda course: np.abs(course) > math.radians(175.0),
+            below(-175.0) - below(-185.0),
+        ),
+    ):
+        alone = found["course"].probability(condition)
+        joint = found.probability(lambda at, asked=condition: asked(at["course"]))
+        assert alone == joint
+        assert alone[0] == pytest.approx(exact, abs=2e-3)
+    assert found["course"].to("deg").probability(lambda course: course > 0.0)[0] == pytest.approx(
+        below(-180.0), abs=2e-3
+    )

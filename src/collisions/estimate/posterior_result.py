@@ -37,6 +37,10 @@ from .fit_result import CONTRADICTION, Residual, SpeedsFound, agreement, with_un
 from .worked_out import in_words, stated, worked_out
 
 _NO_NARROWER, _NOT_MOVED = 0.1, 0.25  # of the variance of a prior, and of its deviation
+# Of distribution functions: a mean moved so far makes half of it, and the draws of an ordinary
+# number of samples a quarter.
+_OTHER_SHAPE = 0.2
+_PLACES = 1024  # in a prior, with equal shares of its probability
 _ROUGH = 0.1  # of a standard deviation: the error of a mean
 _ROUGH_EVIDENCE = 0.5  # of its logarithm
 _FEW_MOVED = 0.5  # of the points
@@ -369,6 +373,7 @@ class Posterior(SpeedsFound, Summarized):
             if abs(share) < _NO_NARROWER
             and abs(self.unknowns[name].mean - self.priors[name].mean)
             < _NOT_MOVED * self.priors[name].sd
+            and _apart(self.draws[name], self.priors[name]) < _OTHER_SHAPE
         )
 
     @property
@@ -463,6 +468,19 @@ class Posterior(SpeedsFound, Summarized):
 
     def _texts(self) -> Iterator[str]:
         return units_of(self.observed | self.priors)
+
+
+def _apart(draws: Any, prior: Distribution) -> float:
+    """The largest difference of the distribution functions of draws and of their prior, as Smirnov
+    has it: evidence may leave mean and variance as they were and exclude what lies between.
+    """
+    of_prior = np.sort(prior.quantile((np.arange(_PLACES) + 0.5) / _PLACES))
+    drawn = np.sort(draws)
+    places = np.concatenate([of_prior, drawn])
+    one, other = (
+        np.searchsorted(values, places, side="right") / values.size for values in (drawn, of_prior)
+    )
+    return float(np.max(np.abs(one - other)))
 
 
 def notes_of(found: Posterior) -> Iterator[Note]:

@@ -184,9 +184,10 @@ def _forwards_alone(impact: Impact) -> tuple[str, ...]:
     left = 0 if impact.reconstruction is None else impact.reconstruction.left_backwards
     if left is None or not np.any(left):
         return ()
-    of = "one more answer fits" if np.ndim(left) or left == 1 else f"{left} more answers fit"
+    of = "one more answer fits" if np.ndim(left) == 0 and left == 1 else f"{left} more answers fit"
     if np.ndim(left):
-        of = f"in {np.count_nonzero(left)} of {np.size(left)} cases, {of}"
+        cases = f"{np.count_nonzero(left)} of {np.size(left)} cases"
+        of = f"in {cases}, up to {np.max(left)} more fit"
     return (f"{of}, {LEFT_BACKWARDS}",)
 
 
@@ -251,7 +252,8 @@ def _may_have_stuck(impact: Impact) -> tuple[str, ...]:
     least = float(np.min(np.where(nearly, np.abs(impact.slip_after), np.inf)))
     return (
         f"{of}the slip after the impact, {say(least, 'speed', 3)}, is so small that it may be "
-        f"none: then the contact stuck, and the slip before was anything {where}; the answer is "
+        f"none: then the contact stuck, and the slip before was anything {where or 'at all'}; the "
+        "answer is "
         "that of the sign of the slip after. Decide with `impulse_ratio=` of either sign",
     )
 

@@ -240,6 +240,8 @@ class MomentumSolution(Shown):
         # Backwards along its course it is none.
         fits = answered & np.greater_equal(speed, 0.0)
         two = f"two courses fit as the {of}, and `course_near` chose"
+        if np.any(answered & np.less(getattr(self, self.unknowns[0]), 0.0)):
+            two = f"with another course as the {of} none goes backwards"
         if np.ndim(fits) or self.tyres:
             yield from in_cases(fits, f"{two}; look at the other too")
         elif fits:

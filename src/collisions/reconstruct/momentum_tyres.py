@@ -217,6 +217,8 @@ def neglected(
     elif not all(map(math.isfinite, (*changes.values(), *shares))):
         return None
     medians = " (medians)" if np.ndim(solution.speed_a) else ""
+    if no_course and medians:
+        medians = " in half of the cases or more"
     sentence = (
         f"found as an instant, which leaves out the tyres: if all wheels slid for {duration:.3g} s "
         f"with a drag of {drag:.2g}, {' and '.join(parts)}{medians}; give `duration=` and "

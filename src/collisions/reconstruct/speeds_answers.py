@@ -131,7 +131,8 @@ def answers_of(
         found, ranks = forwards(scene, found)
         count = _number_of(found, scene)
     # Stuck and slid.
-    count = np.where(scene.ambiguous, 2, count) if np.any(scene.ambiguous) else count
+    if np.any(scene.ambiguous):
+        count, all_count = (np.where(scene.ambiguous, 2, one) for one in (count, all_count))
     impacts: list[Impact] = []
     scenes: list[ComponentScene | None] = []
     backward, whose, turned = 0.0, "", nowhere
@@ -197,7 +198,7 @@ def answers_of(
             function.warn_at(np.where(impact.refused, np.nan, impact.closing_speed))
     if cases.shape is not None and np.any(impacts[0].refused):
         warn_of_refusals(impacts[0].status, ASK_ALONE)
-    _warn_of_folds(scene, found, attempted.found, all_count)
+    _warn_of_folds(scene, found, count, all_count)
     if search.forward_only:
         _say_what_is_left_out(cases, ranks, count, all_count)
     if isinstance(scene, ComponentScene):
@@ -583,11 +584,15 @@ def _say_what_is_left_out(cases: Cases, ranks: list[Any], count: Any, all_count:
         warn_of_cases(warning, {text: cases.each(alone)})
     others = (count > 0) & (all_count > count)
     if np.any(others):
-        text = f"one more answer fits, {LEFT_BACKWARDS}"
+        text = f"more than this one fits, {LEFT_BACKWARDS}"
         state_of_cases({text: cases.each(others)}, "left_backwards")
     for at, rank in enumerate(ranks):
-        own = np.broadcast_to(rank, np.shape(count))[count > at]
-        if answer_counts(at) and own.size and own.min() != own.max():
+        there = count > at
+        below = np.broadcast_to(rank, np.shape(count))[there]
+        above = (all_count - 1)[there] - below
+        # Where others begin or end among themselves, an answer keeps its place from one end.
+        moves = below.size and np.ptp(below) > 0 and np.ptp(above) > 0
+        if answer_counts(at) and moves:
             warn_of_samples(
                 OutOfRangeWarning(
                     "of two answers the one of lower closing speed has a vehicle go backwards in "
@@ -600,20 +605,19 @@ def _say_what_is_left_out(cases: Cases, ranks: list[Any], count: Any, all_count:
             break
 
 
-def _warn_of_folds(
-    scene: Scene, found: list[tuple[Root, Any]], every: list[tuple[Root, Any]], count: Any
-) -> None:
+def _warn_of_folds(scene: Scene, found: list[tuple[Root, Any]], count: Any, all_count: Any) -> None:
     """Warn a study of samples near a fold: some cases have no answer, or its two answers all but
-    meet. ``count`` is of ``every`` answer, also where those ``found`` go forwards alone.
+    meet. ``all_count`` is of all answers, of which those ``found`` may go forwards alone: of the
+    others it is no matter that two of them meet.
     """
-    if len(every) < 2:
+    if not np.any(all_count > 1):
         return
     near = False
     if len(found) > 1:
         (one, _), (other, both) = found[:2]
         gap = np.hypot(one.speed_a - other.speed_a, one.speed_b - other.speed_b)[both]
         near = gap.size > 0 and gap.min() < _NEAR_FOLD * gap.max()
-    if near or np.any(np.less(count, 2)):
+    if near or np.any(all_count == 0) or (len(found) > 1 and np.any(count < 2)):
         warn_of_samples(
             OutOfRangeWarning(
                 f"{' and '.join(scene.names)} reach a fold, where two answers meet and beyond "

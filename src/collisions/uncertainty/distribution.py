@@ -334,9 +334,10 @@ def correlation_found(one: Statement, other: Statement) -> float:
     )
     for mine in of_one:
         for its in of_other:
-            if mine["with"] == its["with"] and mine["name"] != its["name"]:
+            if mine["with"] == its["with"]:
                 pair = mine["name"], its["name"]
-                return float(mine["with"].get(pair, mine["with"].get(pair[::-1], 0.0)))
+                same = 1.0 if pair[0] == pair[1] else 0.0
+                return float(mine["with"].get(pair, mine["with"].get(pair[::-1], same)))
     return 0.0
 
 

@@ -320,9 +320,10 @@ class Output(Summarized):
         """The probability that a condition holds, and its standard error; only after sampling.
 
         The share of the samples, of those that have an answer. The standard error is that of
-        sampling, and no statement on the inputs. A sample that is known from one side only counts
-        where the condition says the same of its bound and of all that lies beyond, which is looked
-        at in eighty places and at infinity.
+        sampling, and no statement on the inputs. Directions are asked of as the model gives them,
+        from -pi to pi, also where mean and range are counted beyond. A sample that is known from
+        one side only counts where the condition says the same of its bound and of all that lies
+        beyond, which is looked at in eighty places and at infinity.
 
         Parameters
         ----------
@@ -508,6 +509,7 @@ class Sampled(Output):
         super().__init__(name, unit)
         self._all_shares = shares
         self._directions = values if unit == "rad" and angles.are_directions(values) else None
+        self._turned = bool(turns)
         counted = values if self._directions is None else angles.counted(values)
         self.values = counted + 2.0 * math.pi * turns if turns else counted
         self.values.setflags(write=False)
@@ -660,8 +662,20 @@ class Sampled(Output):
             A condition that does not return a boolean for every sample, or that samples known from
             one side only leave open.
         """
-        held = holds_of_one(condition, self.name, self.values, self._sides)
-        return self._share(held, lambda values: holds_of_one(condition, self.name, values(self)))
+        held = holds_of_one(condition, self.name, self._asked_of(self.values), self._sides)
+
+        def again(values: Callable[[Any], Any]) -> Any:
+            return holds_of_one(condition, self.name, self._asked_of(values(self)))
+
+        return self._share(held, again)
+
+    def _asked_of(self, values: Any) -> Any:
+        """The values that a condition is asked of: directions as the model gives them, from -pi to
+        pi, unless they were turned by the caller.
+        """
+        if self._directions is None or self._turned:
+            return values
+        return self._directions if values is self.values else angles.folded(values, math.pi)
 
     def _share(self, held: Any, again: Again | None = None) -> tuple[float, float]:
         """The share of the samples in which a condition was found to hold, and its error; ``again``
@@ -949,8 +963,8 @@ class Propagation(Summarized):
         ----------
         condition : function
             Called with a dict of arrays, one number per sample: the outputs by name, each in its
-            unit, SI where the model returned Quantities. Returns one boolean per sample. Samples
-            without an answer to an output that it reads are left out.
+            unit, SI where the model returned Quantities; directions from -pi to pi. Returns one
+            boolean per sample. Samples without an answer to an output that it reads are left out.
 
         Returns
         -------
@@ -987,10 +1001,13 @@ class Propagation(Summarized):
             if name not in samples:
                 return output.probability(condition)
         sides = {name: one._sides for name, one in samples.items() if one._sides is not None}
-        held = holds(condition, {name: one.values for name, one in samples.items()}, sides)
+        held = holds(
+            condition, {name: one._asked_of(one.values) for name, one in samples.items()}, sides
+        )
 
         def again(values: Callable[[Any], Any]) -> Any:
-            return holds(condition, {name: values(one) for name, one in samples.items()})
+            columns = {name: one._asked_of(values(one)) for name, one in samples.items()}
+            return holds(condition, columns)
 
         return next(iter(samples.values()))._share(held, again)
 

@@ -157,11 +157,12 @@ class Joint:
         if not apart:
             return
         one, other = most = max(apart, key=lambda pair: abs(apart[pair]))
-        pairs = "this pair" if len(apart) == 1 else f"{len(apart)} pairs"
+        pairs = "this pair was" if len(apart) == 1 else f"{len(apart)} pairs of what it found were"
         yield Note(
             OutOfRangeWarning,
             f"one fit found {one} and {other} with a correlation of {apart[most]:.2g}, and {pairs} "
-            "of what it found were taken as independent: write `correlation=fit.correlation`",
+            "taken as independent: write `correlation=fit.correlation`, with the names of these "
+            "inputs",
             code="correlation_left_out",
         )
 

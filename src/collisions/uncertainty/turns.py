@@ -14,6 +14,7 @@ _EMPTY = 0.25 * _TURN  # narrower gaps are not cut in, as only some of many poin
 _OPPOSITE = _TURN / 16.0  # on either side of the point opposite the mean
 _ANGLE_TOL = 1e-9  # rounding of an angle
 _NEAR_PI = 2.0
+_BESIDE_PI = math.pi / 12.0  # of pi: an angle that jumps there has values as near on either side
 _SECTORS = 12  # of a turn, whose shares of the values are compared
 _CHANCE = 4.0  # standard deviations of a difference of two counts, beyond which it is none
 _ALONE = 4.0  # times the next widest: a gap in the values of a grid that is a jump
@@ -106,7 +107,7 @@ def jump(values: Any) -> bool:
     if (
         not found.size
         or not are_directions(found)
-        or not (found.min() <= -_NEAR_PI and found.max() >= _NEAR_PI)
+        or not (found.min() <= _BESIDE_PI - math.pi and found.max() >= math.pi - _BESIDE_PI)
     ):
         return False
     # A third of directions to all sides lies within 1 of 0; more of a quantity spread about 0.
