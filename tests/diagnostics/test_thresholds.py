@@ -771,7 +771,7 @@ def a_bump_beside_the_middle(share):
     )
 
 
-def to_both_sides(near=2.5, between=0.0):
+def to_both_sides(near=3.0, between=0.0):
     """Numbers at both ends, and such a share of them between."""
 
     def model(u):
@@ -1041,7 +1041,8 @@ WARNINGS = [
     Warned("turn between two marks", math.radians(90.0), RANGE, "wide_segment",
         lambda x: two_marks(headings=[0.0, x])),
     Warned("yaw over speed", 0.5, RANGE, "fast_yaw", yawing),
-    Warned("ends of a half turn", 2.0, RANGE, "may_wrap", lambda x: to_both_sides(near=x)),
+    Warned("ends of a half turn", math.pi * 11.0 / 12.0, RANGE, "may_wrap",
+        lambda x: to_both_sides(near=x)),
     Warned("shares between them", 0.16, RANGE, "may_wrap", lambda x: to_both_sides(between=x),
         below=True),
     Warned("local method", 0.1, RANGE, "not_local", a_bump_beside_the_middle),

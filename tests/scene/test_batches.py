@@ -283,3 +283,22 @@ def test_what_an_impact_warns_of_is_counted_by_the_cases_of_a_study() -> None:
     (note,) = [one for one in found.notes if one.code == "energy_gain"]
     assert note.fields["cases"] == gains > 32
     assert note.statement.startswith(f"{gains} of 64 cases (")
+
+
+@pytest.mark.parametrize("lock", ["one", "each"])
+def test_a_lock_that_cannot_be_leaves_a_case_without_an_answer(lock: str) -> None:
+    """Beyond 0 to 1 or not known: alone it is refused, and it is not at rest where it started."""
+    locks = np.array([0.5, 1.2, -0.1, 1.0, math.nan])
+    tyres = Tyres(0.7, 1.0 if lock == "one" else [1.0] * 4, 2.62, 1.48)
+    body = col.Vehicle(mass=1250, yaw_inertia=1900, x=0.0, y=0.0, heading=math.pi / 2, vy=9.0)
+    scene = Scene(movers={"B": Mover(body, tyres=tyres)}, contacts=[])
+    paths = ["B.tyres.lock"] if lock == "one" else [f"B.tyres.lock[{i}]" for i in range(4)]
+    with pytest.warns(col.CollisionsWarning, match="3 of 5 cases"):
+        run = scene.replace(dict.fromkeys(paths, locks)).run()
+    codes = ["ok", "bad_fraction", "bad_fraction", "ok", "not_finite"]
+    assert list(run.status) == codes
+    assert np.isnan(run["B"].rest.y).tolist() == [code != "ok" for code in codes]
+    # Locked wheels: v^2 / (2 mu g).
+    assert run["B"].rest.y[3] == pytest.approx(9.0**2 / (2.0 * 0.7 * 9.80665), rel=1e-3)
+    with pytest.raises(col.InputError, match="from 0 to 1, got"):
+        scene.replace(dict.fromkeys(paths, 1.2))

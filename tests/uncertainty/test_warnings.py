@@ -724,7 +724,7 @@ def test_a_comparison_states_what_too_few_samples_are_warned_of_to_be_raised():
     assert note.warning is None
     found, caught = quiet(lambda: reconstruct.compare({"one": account, "other": account}))
     assert not caught
-    assert f"one: {note.statement}" in found.statements
+    assert f"one, other: {note.statement}" in found.statements
 
 
 def test_a_report_prints_what_the_study_was_warned_of():

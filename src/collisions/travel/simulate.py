@@ -499,6 +499,14 @@ def prepared(
             ("bad_friction", np.less(mu, 0.0)) for mu in (wheels["friction"], *ground.values())
         ]
         checks += [("bad_friction", unknown)]
+        checks += [
+            ("not_finite", np.isnan(number)) for number in (*wheels.values(), *ground.values())
+        ]
+        checks += [
+            ("bad_fraction", np.less(wheels[name], 0.0) | np.greater(wheels[name], 1.0))
+            for name in ("lock", *LOCKS)
+            if name in wheels
+        ]
         checks += [("negative_length", np.less(wheels.get("height", 0.0), 0.0))]
         checks += [
             ("wheel_lifts", lifts(wheels, mu)) for mu in (wheels["friction"], *ground.values())
