@@ -1423,3 +1423,30 @@ def test_what_says_all_but_the_sign_is_not_said_to_say_nothing():
         seed=1,
     )
     assert nothing.prior_only == ("x",)
+
+
+def test_samples_as_a_prior_of_which_few_are_left_are_warned_of():
+    """Joint samples of another posterior: the exact answer has a standard deviation of 0.49, and
+    its range is that of a dozen rows.
+    """
+    first = posterior(
+        lambda a, b: {"y": a + b},
+        {"a": Normal(0, 2), "b": Normal(0, 2)},
+        {"y": (1.0, 0.5)},
+        samples=512,
+        seed=1,
+    )
+
+    def second(error, priors):
+        return posterior(
+            lambda a, **rest: {"z": a}, priors, {"z": (0.5, error)}, samples=1024, seed=2
+        )
+
+    with pytest.warns(col.IllConditionedWarning, match="the evidence leaves about") as told:
+        found = second(0.02, first.inputs())
+    assert "few_rows" in {one.message.code for one in told}
+    assert len(set(found.draws["b"].tolist())) < 40
+    assert any("all draws are copies" in one for one in found.statements)
+    # Evidence that excludes little, and a quantity that has only these values.
+    for error, priors in ((3.0, first.inputs()), (0.2, {"a": Samples([0.0, 1.0, 2.0, 4.0])})):
+        assert not any("are copies" in one for one in second(error, priors).statements)

@@ -44,6 +44,7 @@ _PLACES = 1024  # in a prior, with equal shares of its probability
 _ROUGH = 0.1  # of a standard deviation: the error of a mean
 _ROUGH_EVIDENCE = 0.5  # of its logarithm
 _FEW_MOVED = 0.5  # of the points
+_FEW_ROWS = 100  # their mean is off by a tenth of its standard deviation
 _MOSTLY_REFUSED = 0.05  # of the prior
 _MOST_BEYOND = 0.01  # of the samples
 
@@ -483,6 +484,35 @@ def _apart(draws: Any, prior: Distribution) -> float:
     return float(np.max(np.abs(one - other)))
 
 
+def _few_rows(found: Posterior) -> Iterator[Note]:
+    """That the evidence leaves few rows of samples that are a prior: all draws are among these, so
+    that their spread and their errors are those of so many.
+    """
+    groups: dict[Any, list[str]] = {}
+    for name, prior in found.priors.items():
+        # A few values by themselves are all that the quantity can be.
+        if isinstance(prior, Samples) and (prior.group is not None or prior.rows.size >= _FEW_ROWS):
+            groups.setdefault(name if prior.group is None else prior.group, []).append(name)
+    for names in groups.values():
+        prior = found.priors[names[0]]
+        assert isinstance(prior, Samples)
+        draws = found.draws[names[0]]
+        _, counts = np.unique(draws, return_counts=True)
+        # So many draws of equal weight have as large an error of their mean.
+        rows = draws.size**2 / float(np.sum(np.square(counts, dtype=np.float64)))
+        if rows < min(_FEW_ROWS, 0.5 * prior.rows.size):
+            yield Note(
+                IllConditionedWarning,
+                f"of the {prior.rows.size} samples that are the prior of {', '.join(names)} the "
+                f"evidence leaves about {rows:.0f}, of which all draws are copies: ranges and "
+                "means are as rough as those of so few draws, and the standard errors do not show "
+                "it",
+                "; give all readings to one posterior, or take more samples where those of the "
+                "prior come from",
+                "few_rows",
+            )
+
+
 def notes_of(found: Posterior) -> Iterator[Note]:
     """The notes on a posterior in the order of importance: first whether the evidence agrees."""
     apart = {}
@@ -521,6 +551,7 @@ def notes_of(found: Posterior) -> Iterator[Note]:
             "; give more samples, or closer priors",
             "islands_disagree",
         )
+    yield from _few_rows(found)
     if found.moved < _FEW_MOVED:
         yield Note(
             IllConditionedWarning,
