@@ -10,6 +10,7 @@ import warnings
 from collections import Counter
 from collections.abc import Sequence
 from contextlib import suppress
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,7 @@ import pytest
 
 import collisions as col
 from collisions.scene import Contact, Mover, Scene
+from collisions.scene.names import inputs_of
 from collisions.travel import Tyres, following
 from collisions.uncertainty import Normal, propagate
 
@@ -302,3 +304,75 @@ def test_a_lock_that_cannot_be_leaves_a_case_without_an_answer(lock: str) -> Non
     assert run["B"].rest.y[3] == pytest.approx(9.0**2 / (2.0 * 0.7 * 9.80665), rel=1e-3)
     with pytest.raises(col.InputError, match="from 0 to 1, got"):
         scene.replace(dict.fromkeys(paths, 1.2))
+
+
+SPOILT = (math.nan, math.inf, -math.inf, -1.0)
+
+
+def spoilt() -> dict[str, Scene]:
+    """Scenes with every kind of input: touch, tyres before and after, time, areas and a slope."""
+    a = col.Vehicle(mass=1500, yaw_inertia=2500, x=-8, y=0.2, heading=0.1, vx=14, vy=0.5,
+                    yaw_rate=0.1)  # fmt: skip
+    b = a.replace(mass=1250, yaw_inertia=1900, x=0, y=-1, heading=1.5, vx=0.3, vy=9)
+    c = a.replace(mass=1600, x=9, y=5, heading=2, vx=-1, vy=-1)
+    wheels, rolling = (
+        Tyres(0.7, [1, 0.5, 0, 0], 2.62, 1.48, steer=0.05, height=0.5),
+        Tyres(0.7, 0.4, 2.62, 1.48),
+    )
+    long, rule = (4.5, 1.8), {"restitution": 0.1, "friction": 0.5}
+    cars = {"A": Mover(a, outline=long, tyres=wheels), "B": Mover(b, outline=long, tyres=rolling)}
+    by_time = {"at": 0.4, "normal": 0.1, "point": (-1.5, 0.0)}
+    area = [((0, -5), (5, -5), (5, 5), (0, 5)), 0.3]
+    return {
+        "touch": Scene(
+            movers=cars | {"C": Mover(c, outline=long, drag=0.5)},
+            contacts=[Contact("A", "B", at="touch", delay=0.02, **rule)],
+        ),
+        "time": Scene(
+            movers={"A": Mover(a, tyres=wheels), "B": Mover(b, drag=0.6)},
+            contacts=[Contact("A", "B", **by_time, **rule)],
+        ),
+        "lasting": Scene(
+            movers=cars,
+            contacts=[Contact("A", "B", at="touch", duration=0.1, **rule)],
+            slope=(0.02, 0.01),
+        ),
+        "area": Scene(movers={"A": Mover(a, tyres=rolling)}, contacts=[], surfaces=[tuple(area)]),
+    }
+
+
+def number_at(scene: Scene, path: str) -> float:
+    """The number of an input, by its path, which is written as in Python."""
+    owners: dict[str, Any] = {"contacts": scene.contacts, "slope": scene.slope}
+    owners["surfaces"] = [friction for _, friction in scene.surfaces]
+    for name, mover in scene.movers.items():
+        body = {part: getattr(mover.vehicle, part) for part in mover.vehicle.__slots__}
+        owners[name] = SimpleNamespace(**body, tyres=mover.tyres, drag=mover.drag)
+    return float(eval(path, owners))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", spoilt())
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+def test_what_a_single_scene_refuses_has_no_answer_in_a_batch(name: str) -> None:
+    """Every input with values that cannot be, or only just, each in a case of its own."""
+    scene = spoilt()[name]
+    # Polar ones are those of the velocities once more, and the normal is an angle of a tuple.
+    paths = [
+        path for path in inputs_of(scene) if not path.endswith((".speed", ".course", ".normal"))
+    ]
+    pairs = [(path, value) for path in paths for value in SPOILT]
+    columns = {
+        path: np.array([value if of == path else number_at(scene, path) for of, value in pairs])
+        for path in paths
+    }
+    status = scene.replace(columns).run().status
+    refused = 0
+    for (path, value), code in zip(pairs, status, strict=True):
+        try:
+            scene.replace({path: value})
+        except col.CollisionsError:
+            assert code != "ok", (path, value)
+            refused += 1
+    assert refused > 20
+    assert np.count_nonzero(status == "ok") > 5

@@ -188,12 +188,29 @@ class Course:
         self._places: list[Any] = []
         self._present: Any = np.zeros(count, dtype=int)
         self.fixed = mover.fixed
+        self._refuse_body()
         self._refuse_speeds()
         if mover.drag is not None:
             self._refuse_drags()
         # All tyres that it has had, and on which of them each case moves now.
         self.wheels: list[Tyres | None] = [mover.tyres]
         self.wheels_of: Any = np.zeros(count, dtype=int)
+
+    def _refuse_body(self) -> None:
+        """Leave the cases without an answer of which a number of the vehicle cannot be, also where
+        its motion does not rest on it; of a single case it was refused when it was read.
+        """
+        body = self.mover.vehicle
+        for name in STATE:
+            value = getattr(body, name)
+            if isinstance(value, np.ndarray):
+                number = self.ground.cases(value)
+                self._fail(np.flatnonzero(~np.isfinite(number)), Status.NOT_FINITE.label)
+        for value in (body.mass, body.yaw_inertia):
+            if isinstance(value, np.ndarray):
+                number = self.ground.cases(value)
+                self._fail(np.flatnonzero(np.isnan(number)), Status.NOT_FINITE.label)
+                self._fail(np.flatnonzero(~(number > 0.0)), Status.NOT_POSITIVE.label)
 
     def _refuse_speeds(self) -> None:
         """Leave the cases without an answer whose kinetic energy is beyond the range of floats; an

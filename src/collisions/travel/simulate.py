@@ -499,9 +499,7 @@ def prepared(
             ("bad_friction", np.less(mu, 0.0)) for mu in (wheels["friction"], *ground.values())
         ]
         checks += [("bad_friction", unknown)]
-        checks += [
-            ("not_finite", np.isnan(number)) for number in (*wheels.values(), *ground.values())
-        ]
+        checks += [("not_finite", bad) for bad in _not_finite({**wheels, **ground, **rises})]
         checks += [
             ("bad_fraction", np.less(wheels[name], 0.0) | np.greater(wheels[name], 1.0))
             for name in ("lock", *LOCKS)
@@ -513,6 +511,17 @@ def prepared(
         ]
     stop = np.full(motion.start.shape[1], math.inf) if until is None else flat["until"] / units[2]
     return Prepared(motion, units, shape, named, checks, stop)
+
+
+# What may be infinite: how stiff a tyre is, and a friction that nothing overcomes.
+_ENDLESS = ("cornering", "friction", "surfaces")
+
+
+def _not_finite(numbers: Mapping[str, Any]) -> Iterator[Any]:
+    """Where each of these numbers cannot be."""
+    for name, number in numbers.items():
+        may_be = name.startswith(_ENDLESS)
+        yield np.isnan(number) if may_be else np.logical_not(np.isfinite(number))
 
 
 def _brakes_unknown(wheels: Mapping[str, Any], areas: bool) -> Any:
@@ -546,6 +555,9 @@ def _prepared(
     )
     for part in own.locks:
         usable = usable & (part >= 0.0) & (part <= 1.0)
+    others = {n: one for n, one in flat.items() if n not in ("mass", "yaw_inertia", "until")}
+    for bad in _not_finite(others):
+        usable = usable & np.logical_not(bad)
     rates = [np.where(usable, flat[name], 0.0) for name in ("vx", "vy", "yaw_rate")]
     turn = rates[2] * reach
     # The largest first, so that squares neither overflow nor vanish.
