@@ -1227,7 +1227,7 @@ def test_report_explain_diagnose():
     assert "tyre_impulse" in col.diagnose(t_bone(drag=0.0)).measured
     assert "contact_points_approach" not in codes
     assert not [one for one in col.diagnose(impact) if one.code == "rounding"]
-    assert "first contact." in col.report(t_bone(geometry="first_contact"), form="markdown")
+    assert "first contact;" in col.report(t_bone(geometry="first_contact"), form="markdown")
     bare = t_bone(a=col.Vehicle(**A | {"heading": None}))
     assert "without a heading" in col.report(bare, form="markdown")
 

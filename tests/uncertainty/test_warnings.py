@@ -611,7 +611,7 @@ def test_fits_and_posteriors_give_a_loop_no_share():
     more, _ = quiet(lambda: found.with_result("again", each, speed=found["speed"]))
     assert sum(said in text for text in more.statements) == 2
     compared, _ = quiet(lambda: reconstruct.compare({"one": found, "other": found}))
-    assert f"one: {said}" in compared.statements
+    assert f"one, other: {said}" in compared.statements
 
 
 def test_one_warning_of_many_calls_is_one_statement_whatever_its_numbers():

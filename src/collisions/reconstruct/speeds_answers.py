@@ -28,7 +28,6 @@ from ..messages.errors import (
     OutOfRangeWarning,
 )
 from ..messages.warning import (
-    BOUND,
     answer_counts,
     in_study,
     state_of_cases,
@@ -284,7 +283,7 @@ def _warn_of_bounds(impact: Impact, cases: Cases) -> None:
             "`uncertainty.OneSided` with `reconstruction.one_sided`, or its range is that of the "
             "least slip"
         )
-        warn_of_cases(OutOfRangeWarning(text, code=BOUND), {text: cases.each(bound)})
+        warn_of_cases(OutOfRangeWarning(text, code="bound_as_value"), {text: cases.each(bound)})
 
 
 def _warn_of_slip(scene: ComponentScene, impact: Impact, cases: Cases) -> None:
