@@ -82,7 +82,7 @@ OPEN = frozenset(
         "VehicleResult.impulse_direction", "VehicleResult.pdof", "VehicleResult.pdof_clock",
         "Impact.impulse_ratio", "Impact.critical_impulse_ratio", "Impact.friction",
         "reconstruct.Reconstruction.condition", "reconstruct.Reconstruction.answers",
-        "reconstruct.Reconstruction.given", "ByModel",
+        "reconstruct.Reconstruction.given", "reconstruct.Reconstruction.slip_if_stuck", "ByModel",
         "ModelChoice.errors", "Inputs.rule_value",
     }
 )  # fmt: skip

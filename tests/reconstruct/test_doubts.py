@@ -268,3 +268,14 @@ def test_a_batch_of_no_case_has_nothing_to_doubt():
 def test_a_number_of_numpy_is_named_as_it_is():
     with pytest.raises(col.InputError, match=r"got -3\.0"):
         A.replace(mass=np.float64(-3.0))
+
+
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+def test_a_second_course_of_a_batch_with_refused_cases_gives_no_warning_of_numpy():
+    found = reconstruct.momentum(
+        np.array([1200.0, 0.0, 1200.0]), np.array([1800.0, 1800.0, math.inf]), **KEPT_SPEED,
+        speed_a="68 km/h",
+    )  # fmt: skip
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert any("look at the other too" in one for one in found.statements)

@@ -62,7 +62,8 @@ class Reconstruction:
         goes backwards along its course; ``answers`` are those that were not left out.
     slip_if_stuck : tuple of float or array [m/s], optional
         Of ``planar``: where the slip after is so small that it may be none, the least and the
-        greatest slip before of a contact that stuck; NaN for other cases of a batch.
+        greatest slip before of a contact that stuck, infinite where friction holds any; NaN for
+        other cases of a batch.
     found : tuple of str
         What was found of the state before and of the contact, by name: "speed_a", "speed_b", and
         where they were sought "course_a", "yaw_rate_a", "restitution", "friction" and so on. In a

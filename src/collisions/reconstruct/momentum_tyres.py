@@ -333,9 +333,11 @@ def other_course(solution: MomentumSolution) -> tuple[Any, Any]:
     name, course = solution.unknowns
     axis, angle = getattr(solution, name.replace("speed", "course")), getattr(solution, course)
     size = getattr(solution, course.replace("course", "speed"))
-    shares = _taken(solution, name) / _taken(solution, course.replace("course", "speed"))
-    speed = getattr(solution, name) + 2.0 * shares * size * np.cos(angle - axis)
-    return speed, np.pi - angle + 2.0 * axis
+    # A refused case may have no number.
+    with np.errstate(all="ignore"):
+        shares = _taken(solution, name) / _taken(solution, course.replace("course", "speed"))
+        speed = getattr(solution, name) + 2.0 * shares * size * np.cos(angle - axis)
+        return speed, np.pi - angle + 2.0 * axis
 
 
 def _taken(solution: MomentumSolution, name: str) -> Any:
