@@ -279,3 +279,9 @@ def test_a_second_course_of_a_batch_with_refused_cases_gives_no_warning_of_numpy
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert any("look at the other too" in one for one in found.statements)
+    courses = {"course_b": np.array([0.0, math.inf, 0.1]), "course_a": "175 deg"}
+    known = {name: value for name, value in KEPT_SPEED.items() if name != "course_near"}
+    found = reconstruct.momentum(1200.0, 1800.0, **known | courses)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert any("of one line" in one for one in found.statements)

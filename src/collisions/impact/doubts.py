@@ -71,7 +71,9 @@ def speeds_along(impact: Impact) -> dict[str, Any]:
         course = origin.given.get(f"course_{label}")
         if f"speed_{label}" in origin.found and course is not None:
             before = getattr(impact, label).before
-            found[f"speed_{label}"] = before.vx * np.cos(course) + before.vy * np.sin(course)
+            with np.errstate(all="ignore"):
+                along = before.vx * np.cos(course) + before.vy * np.sin(course)
+            found[f"speed_{label}"] = along
     return found
 
 
@@ -88,8 +90,10 @@ def angle_of_courses(origin: Reconstruction) -> Any:
 
 def from_one_line(one: Any, other: Any) -> Any:
     """How far two courses are from one line, in either direction."""
-    between = np.mod(np.subtract(one, other), np.pi)
-    return np.minimum(between, np.pi - between)
+    # A refused case may have no number.
+    with np.errstate(all="ignore"):
+        between = np.mod(np.subtract(one, other), np.pi)
+        return np.minimum(between, np.pi - between)
 
 
 def from_components(origin: Reconstruction) -> bool:
