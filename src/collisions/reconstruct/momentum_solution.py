@@ -238,7 +238,7 @@ class MomentumSolution(Shown):
         speed, course = other_course(self)
         name, of = (_of_vehicle(one) for one in self.unknowns)
         # Backwards along its course it is none.
-        fits = answered & np.greater_equal(speed, 0.0)
+        fits = answered & np.greater_equal(speed, 0.0) & np.isfinite(course)
         two = f"two courses fit as the {of}, and `course_near` chose"
         if np.any(answered & np.less(getattr(self, self.unknowns[0]), 0.0)):
             two = f"with another course as the {of} none goes backwards"
