@@ -253,8 +253,7 @@ def _may_have_stuck(impact: Impact) -> tuple[str, ...]:
     return (
         f"{of}the slip after the impact, {say(least, 'speed', 3)}, is so small that it may be "
         f"none: then the contact stuck, and the slip before was anything {where or 'at all'}; the "
-        "answer is "
-        "that of the sign of the slip after. Decide with `impulse_ratio=` of either sign",
+        "answer is that of the sign of the slip after. Decide with `impulse_ratio=` of either sign",
     )
 
 

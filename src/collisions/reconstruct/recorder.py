@@ -112,13 +112,12 @@ class RecordedPulse(Shown):
         or that was greater before, or is less in a later sample.
         """
         at = _largest(self.time, self.forward, self.left)
-        forward, left = (
-            None
-            if (found := None if part is None else _evidence(part, at, self.ended)) is None
-            else _with_note(found, name, part)
-            for name, part in (("forward", self.forward), ("left", self.left))
-        )
-        return forward, left
+
+        def of(name: str, part: Any) -> Normal | Censored | None:
+            found = None if part is None else _evidence(part, at, self.ended)
+            return None if found is None else _with_note(found, name, part)
+
+        return of("forward", self.forward), of("left", self.left)
 
     @property
     def statements(self) -> tuple[str, ...]:
