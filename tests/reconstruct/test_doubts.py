@@ -34,6 +34,13 @@ CASES = {
         },
         "course_a and course_b are within 10 degrees of one line",
     ),
+    "recorders_differ": (
+        {
+            **STUCK, "delta_v_forward_a": "-24 km/h", "delta_v_left_a": "9 km/h",
+            "delta_v_forward_b": "-0.4 km/h", "delta_v_left_b": "-38.4 km/h",
+        },
+        "differ from this answer by 13 percent of the impulse, where recorders are accurate to 10",
+    ),
 }  # fmt: skip
 
 
@@ -64,6 +71,27 @@ def test_of_a_batch_it_is_stated_of_how_many_cases():
     backwards = [found.case(i).statements for i in range(3)]
     assert [sum("backwards" in one for one in said) for said in backwards] == [1, 1, 0]
     assert any(one.startswith("in 2 of 3 cases, speed_b was found") for one in found.statements)
+
+
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+def test_how_far_recorders_differ_is_in_the_record_and_worked_out_again():
+    known, said = CASES["recorders_differ"]
+    (found,) = reconstruct.speeds(A, B, **MET | known)
+    # The mean of both impulses is halfway between 1 and 1.3 times that of A.
+    assert found.reconstruction.misfit == pytest.approx(0.15 / 1.15, rel=1e-2)
+    record = json.loads(json.dumps(found.to_dict()))
+    again = col.Impact.from_dict(record)
+    assert again.reconstruction == found.reconstruction
+    assert any(said in one for one in again.statements)
+    for value in (0.05, None):
+        record["results"]["reconstruction"]["misfit"] = value
+        with pytest.raises(col.InputError, match="misfit|of the impulse, and solving it again"):
+            col.report(col.Impact.from_dict(record))
+    many = reconstruct.speeds(
+        A, B, **MET | known | {"delta_v_left_b": np.array([-29.5, -38.4, -99.0]) / 3.6}
+    )[0]
+    assert any(one.startswith("in 1 of 3 cases") and "up to" in one for one in many.statements)
+    assert [math.isfinite(one) for one in many.reconstruction.misfit] == [True, True, False]
 
 
 @pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")

@@ -332,7 +332,7 @@ def test_the_finding_and_the_derivation_say_what_the_call_warns_of():
     for one in (found, col.Impact.from_dict(found.to_dict())):
         findings = {each.code: each for each in col.diagnose(one)}
         assert findings["components_differ"].measured == pytest.approx(share, rel=1e-9)
-        assert "a contact that slides with this friction" in findings["components_differ"].sentence
+        assert "the friction, one of them, a course" in findings["components_differ"].sentence
         assert findings["one_sided"].measured == 1.0
         assert "by 13 percent of the impulse" in str(col.explain(one))
         page = str(col.report(one, form="markdown", figures=False))

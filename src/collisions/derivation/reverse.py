@@ -10,6 +10,7 @@ from itertools import pairwise
 from operator import attrgetter
 from typing import Any, NamedTuple
 
+from ..impact.doubts import apart_in_words, shares_apart
 from ..impact.impact import Impact
 from ..impact.instant import LIMITED
 from ..impact.reconstruction import (
@@ -23,8 +24,8 @@ from ..impact.reconstruction import (
 from ..kernels.central import shares
 from ..kernels.reverse import energy_of_speeds
 from ..quantities.tables import as_sentence
-from ..reconstruct.found_again import components_apart
 from ..reconstruct.speeds_components import COMPONENTS
+from ..reference import RECORDER_ACCURACY
 from ..vehicle.drag import GRAVITY
 from .expressions import HALF, ONE, ZERO, Expression, root
 from .models import Lever, impulse_in_scene_axes
@@ -193,8 +194,8 @@ def what_was_known(page: Page, impact: Impact) -> None:
             "one of them. Nothing here tells which of them happened; look at the others too, "
             "and rule them out by other evidence."
         )
-    if (apart := components_apart(impact)) is not None:
-        page.stress(as_sentence(apart[1]))
+    if (share := shares_apart(impact)) > RECORDER_ACCURACY.high:
+        page.stress(as_sentence(apart_in_words(impact, share)))
     if origin.regime is not None:
         ended = {"sticking": "stuck", "sliding": "slid to its end"}[origin.regime]
         page.say(f"That the contact {ended} was stated; what was known does not tell.")

@@ -10,11 +10,12 @@ from typing import Any
 
 from ..impact.doubts import (
     BACKWARDS,
-    MAY_SLIDE,
     NEARLY_COLLINEAR,
     angle_of_courses,
-    from_components,
+    apart_in_words,
+    shares_apart,
     speeds_along,
+    sticking_needs,
     taken_to_stick,
 )
 from ..impact.impact import Impact, answer_of
@@ -24,12 +25,12 @@ from ..impact.left_out import tyres_lacking
 from ..impact.reconstruction import (
     NOT_THIS,
     bounds_of,
+    from_components,
     how_many,
     known_in_words,
 )
 from ..impact.time_resolved_inputs import held_impulse
 from ..impact.vehicle_result import VehicleResult
-from ..reconstruct.found_again import components_apart
 from ..reconstruct.momentum_tyres import lasts
 from ..reconstruct.momentum_tyres import neglected as momentum_neglect
 from ..reconstruct.momentum_tyres import tyres_lacking as momentum_lacking
@@ -450,7 +451,7 @@ def friction_low(case: ImpactCase) -> Iterator[Measured]:
 def may_slide(case: ImpactCase) -> Iterator[Measured]:
     impact, origin = case.answer, case.answer.reconstruction
     movable = math.isfinite(impact.a.before.mass) and math.isfinite(impact.b.before.mass)
-    if origin is not None and from_components(origin):
+    if origin is not None and from_components(origin.known):
         stated = taken_to_stick(impact)
     else:
         stated = impact.friction == math.inf and movable
@@ -463,11 +464,7 @@ def may_slide(case: ImpactCase) -> Iterator[Measured]:
     if slid is not None and slid.reconstruction is not None:
         speeds = {name: case.text(getattr(slid, name), "speed") for name in ("speed_a", "speed_b")}
         then = " and ".join(bounds_of(slid.reconstruction.one_sided or {}, speeds)) or NOT_THIS
-    sentence = (
-        f"to stick, the contact needs an impulse ratio of {ratio:.2f}, and contacts between "
-        f"vehicles slide from {MAY_SLIDE:g} on; if it slid, {then}"
-    )
-    yield Measured(ratio, sentence)
+    yield Measured(ratio, sticking_needs(ratio, then))
 
 
 @finding(
@@ -497,10 +494,10 @@ def one_sided(case: ImpactCase) -> Iterator[Measured]:
 )
 def components_differ(case: ImpactCase) -> Iterator[Measured]:
     origin = case.answer.reconstruction
-    if origin is None or not from_components(origin):
+    if origin is None or not from_components(origin.known):
         return
-    apart = components_apart(case.answer)
-    yield Measured(*(apart or (0.0, "components of delta-V that were given agree")))
+    share = float(shares_apart(case.answer))
+    yield Measured(share, apart_in_words(case.answer, share))
 
 
 @finding(

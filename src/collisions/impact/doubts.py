@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 
 from ..kernels.contact_laws import FRICTION
-from ..reference import INTER_VEHICLE_FRICTION
+from ..reference import INTER_VEHICLE_FRICTION, RECORDER_ACCURACY
 from .impact import Impact
-from .reconstruction import NOT_THIS, Reconstruction
+from .reconstruction import NOT_THIS, Reconstruction, from_components, known_in_words
 
 # Courses that are this near one line tell little of both speeds.
 NEARLY_COLLINEAR = math.radians(10.0)
@@ -42,15 +42,23 @@ def doubts(impact: Impact) -> Iterator[str]:
             "line: small errors of delta-V and of the courses move both speeds far"
         )
         yield from in_cases(answered & np.less(angle, NEARLY_COLLINEAR), sentence)
+    share = shares_apart(impact)
+    yield from in_cases(share > RECORDER_ACCURACY.high, apart_in_words(impact, share))
     if taken_to_stick(impact):
         ratio = np.abs(impact.impulse_ratio)
         slides = answered & (ratio >= MAY_SLIDE) & np.equal(impact.regime, "sticking")
         shown = float(np.max(np.where(slides, ratio, 0.0), initial=0.0))
-        sentence = (
-            f"to stick, the contact needs an impulse ratio of {shown:.2f}, and contacts between "
-            f"vehicles slide from {MAY_SLIDE:g} on; if it slid, {NOT_THIS}"
-        )
-        yield from in_cases(slides, sentence)
+        yield from in_cases(slides, sticking_needs(shown, NOT_THIS))
+
+
+def sticking_needs(ratio: float, if_it_slid: str) -> str:
+    """The sentence on a contact that was taken to stick with an impulse ratio at which it may have
+    slid.
+    """
+    return (
+        f"to stick, the contact needs an impulse ratio of {ratio:.2f}, and contacts between "
+        f"vehicles slide from {MAY_SLIDE:g} on; if it slid, {if_it_slid}"
+    )
 
 
 def in_cases(where: Any, sentence: str) -> Iterator[str]:
@@ -81,7 +89,7 @@ def angle_of_courses(origin: Reconstruction) -> Any:
     """How far both courses are from one line, where both speeds were found from components of
     delta-V along courses that were given; else None.
     """
-    if not from_components(origin) or len(origin.found) < 2:
+    if not from_components(origin.known) or len(origin.found) < 2:
         return None
     if not {"course_a", "course_b"} <= origin.given.keys():
         return None  # one that stands needs no course
@@ -96,9 +104,34 @@ def from_one_line(one: Any, other: Any) -> Any:
         return np.minimum(between, np.pi - between)
 
 
-def from_components(origin: Reconstruction) -> bool:
-    """Whether an impact was found from components of delta-V."""
-    return any(name.startswith(("delta_v_forward", "delta_v_left")) for name in origin.known)
+def shares_apart(impact: Impact) -> Any:
+    """How far components of delta-V that were given are from the answer, as a share of the impulse;
+    0 without an answer, or where none were given.
+    """
+    origin = impact.reconstruction
+    if origin is None or origin.misfit is None:
+        return 0.0
+    return np.where(impact.refused, 0.0, origin.misfit)
+
+
+def apart_in_words(impact: Impact, shares: Any) -> str:
+    """The sentence on the largest of these shares."""
+    origin, most = impact.reconstruction, float(np.max(shares, initial=0.0))
+    if origin is None or most == 0.0:
+        return "components of delta-V that were given agree"
+    names = [name for name in origin.known if not name.startswith("recorder")]
+    known = " and ".join(f"the {words}" for words in known_in_words(names))
+    up_to = "" if np.ndim(shares) == 0 else "up to "
+    # What is given of friction moves a contact that slid.
+    slid = impact.inputs.rule not in (None, *origin.found) and np.any(
+        np.not_equal(impact.regime, "sticking")
+    )
+    rule = f"the {impact.inputs.rule}, ".replace("_", " ") if slid else ""
+    return (
+        f"{known} differ from this answer by {up_to}{100.0 * most:.0f} percent of the impulse, "
+        f"where recorders are accurate to {100.0 * RECORDER_ACCURACY.high:.0f} percent: {rule}one "
+        "of them, a course or the geometry is wrong"
+    )
 
 
 def taken_to_stick(impact: Impact) -> bool:
@@ -109,7 +142,7 @@ def taken_to_stick(impact: Impact) -> bool:
     return (
         origin is not None
         and impact.inputs.rule == FRICTION
-        and from_components(origin)
+        and from_components(origin.known)
         and (
             origin.regime == "sticking"
             or not any(name.startswith(("speed", "energy", "ees")) for name in origin.known)

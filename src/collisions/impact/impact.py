@@ -803,18 +803,9 @@ class Impact(_SpeedsBefore, Frozen, Summarized):
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Arrays come out of a pickle unlocked; those of inputs and choice lock themselves."""
         vars(self).update(read_only(state))
-        if self.reconstruction is not None:
-            read_only(
-                (
-                    self.reconstruction.condition,
-                    self.reconstruction.answers,
-                    self.reconstruction.contact_velocity,
-                    self.reconstruction.slip_if_stuck,
-                    self.reconstruction.left_backwards,
-                    self.reconstruction.one_sided,
-                    self.reconstruction.given,
-                )
-            )
+        origin = self.reconstruction
+        if origin is not None:
+            read_only(tuple(getattr(origin, each.name) for each in fields(origin)))
 
     def __repr__(self) -> str:
         shown = ", ".join(

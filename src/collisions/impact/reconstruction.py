@@ -64,6 +64,10 @@ class Reconstruction:
         Of ``planar``: where the slip after is so small that it may be none, the least and the
         greatest slip before of a contact that stuck, infinite where friction holds any; NaN for
         other cases of a batch.
+    misfit : float or array [1], optional
+        Of ``speeds`` from components of delta-V: how far those that were given are from those of
+        the answer, as a share of the impulse, or half the relative difference of a known energy
+        where that is more; 0 where one impact fits all of them.
     found : tuple of str
         What was found of the state before and of the contact, by name: "speed_a", "speed_b", and
         where they were sought "course_a", "yaw_rate_a", "restitution", "friction" and so on. In a
@@ -88,6 +92,7 @@ class Reconstruction:
     one_sided: Mapping[str, Any] | None = None
     left_backwards: Any = None
     slip_if_stuck: tuple[Value, Value] | None = None
+    misfit: Value | None = None
     found: tuple[str, ...] = ()
     given: Mapping[str, Any] = field(default_factory=dict)
     duration: Value | None = None
@@ -98,6 +103,11 @@ class Reconstruction:
         if not isinstance(other, Reconstruction):
             return NotImplemented
         return all(equal(getattr(self, f.name), getattr(other, f.name)) for f in fields(self))
+
+
+def from_components(known: Collection[str]) -> bool:
+    """Whether what a reverse solver was given has components of delta-V."""
+    return any(name.startswith(("delta_v_forward", "delta_v_left")) for name in known)
 
 
 class AsRecorded(Reconstruction):
@@ -311,7 +321,7 @@ def origin_where_answered(origin: Reconstruction, status: Any) -> Reconstruction
         select(refused, math.nan, origin.condition),
         select(refused > several, 0, origin.answers),
     )
-    left = origin.left_backwards
+    left, misfit = origin.left_backwards, origin.misfit
     velocity, slips = (
         pair and read_only(tuple(select(refused, math.nan, part) for part in pair))
         for pair in (origin.contact_velocity, origin.slip_if_stuck)
@@ -325,6 +335,7 @@ def origin_where_answered(origin: Reconstruction, status: Any) -> Reconstruction
         answers=read_only(answers),
         contact_velocity=velocity,
         slip_if_stuck=slips,
+        misfit=None if misfit is None else read_only(select(refused, math.nan, misfit)),
         left_backwards=None if left is None else read_only(select(refused, 0, left)),
         one_sided=sides,
     )

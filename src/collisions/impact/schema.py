@@ -293,6 +293,7 @@ _RECONSTRUCTION = {
     },
     "left_backwards": {"anyOf": [_each({"type": "integer", "minimum": 0}), NULL]},
     "slip_if_stuck": {"anyOf": [_PAIR, NULL]},
+    "misfit": {"anyOf": [_VALUE, NULL]},
     "found": {"type": "array", "items": TEXT},
     "given": {"type": "object", "additionalProperties": _VALUE},
     **{name: {"anyOf": [_VALUE, NULL]} for name in ("duration", "drag_a", "drag_b")},

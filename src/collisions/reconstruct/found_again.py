@@ -20,16 +20,14 @@ from ..impact.reconstruction import (
     OF_CONTACT,
     AsRecorded,
     Reconstruction,
-    known_in_words,
 )
 from ..kernels.contact_laws import BRACH, FRICTION, RULES
-from ..messages.errors import CollisionsError, CollisionsWarning, InputError
+from ..messages.errors import CollisionsError, InputError
 from ..quantities.settings import in_si
 from ..vehicle.vehicle import Vehicle
 from .central import central
 from .planar import Regime, planar
 from .speeds import speeds
-from .speeds_components import ACCURACY
 
 # A condition that is worked out again from an answer differs by the errors of its differences, and
 # the more the greater it is itself, as it multiplies the rounding of the answer; never by more.
@@ -38,13 +36,6 @@ _SAME_CONDITION, _BY_ROUNDING, _MOST_APART = 1e-4, 1e-12, 0.01
 _SAME_VELOCITY = 1e-6
 # More than the rounding of angles in degrees, which a record has in radians.
 _TIE = 1e-12
-_APART = {
-    "recorders_differ": ("their best common answer", "one of them, a course or the geometry"),
-    "friction_differs": (
-        "a contact that slides with this friction",
-        "the friction, one of them or the geometry",
-    ),
-}
 _METHODS = ("central", "planar", "speeds")
 _MOTION = ("vx", "vy", "yaw_rate")
 _AS_ARGUMENTS = {"contact_duration": "duration"}
@@ -151,6 +142,12 @@ def contradicted_origin(impact: Impact) -> Iterator[str]:
             f"its inputs leave the speeds known by {again.one_sided or 'both sides'}, and it says "
             f"{origin.one_sided or 'both sides'}"
         )
+    one, other = (math.nan if each.misfit is None else each.misfit for each in (origin, again))
+    if not np.isclose(one, other, rtol=_SAME_CONDITION, atol=_SAME_VELOCITY, equal_nan=True):
+        yield (
+            "it says that what was known differs from the answer by "
+            f"{origin.misfit} of the impulse, and solving it again finds {again.misfit}"
+        )
     pairs = (origin.slip_if_stuck or (), again.slip_if_stuck or ())
     scale = _SAME_VELOCITY * abs(impact.closing_speed)
     if len(pairs[0]) != len(pairs[1]) or not all(
@@ -227,32 +224,6 @@ def _at_a_tie(impact: Impact, origin: Reconstruction) -> bool:
 def _along_axes(name: str) -> str:
     """The name of a motion after that stands for a speed and a course after."""
     return name.replace("_after.speed", "_after.vx").replace("_after.course", "_after.vy")
-
-
-def components_apart(impact: Impact) -> tuple[float, str] | None:
-    """How far components of delta-V that ``speeds`` was given are from each other, or from a
-    contact with the friction given, as a share of the impulse, with a sentence; None where it does
-    not warn of it when the impact is solved again.
-    """
-    origin = impact.reconstruction
-    if origin is None or origin.method != "speeds":
-        return None
-    with warnings.catch_warnings(record=True) as caught, in_si():
-        warnings.simplefilter("always")
-        try:
-            _solved_again(impact, origin)
-        except (CollisionsError, TypeError, LookupError):
-            return None  # as in _again
-    for one in (each.message for each in caught):
-        if isinstance(one, CollisionsWarning) and one.code in _APART:
-            share = float(one.fields["value"])
-            from_what, wrong = _APART[one.code]
-            known = " and ".join(f"the {words}" for words in known_in_words(one.fields["known"]))
-            return share, (
-                f"{known} differ from {from_what} by {100.0 * share:.0f} percent of the impulse, "
-                f"where recorders are accurate to {100.0 * ACCURACY:.0f} percent: {wrong} is wrong"
-            )
-    return None
 
 
 def _taken(method: str) -> set[str]:

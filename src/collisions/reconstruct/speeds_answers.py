@@ -174,9 +174,15 @@ def answers_of(
                 )
             raise _refusal(search, scene, status, say, ways.turned)
         origin = reconstruction(names, root.condition, count)
-        own = scene.of_way(root.way) if isinstance(scene, ComponentScene) else None
-        if own is not None:
-            origin = replace(origin, regime=own.stated, one_sided=_sides(own, cases, root, there))
+        own = None
+        if isinstance(scene, ComponentScene):
+            own = scene.of_way(root.way)
+            origin = replace(
+                origin,
+                regime=own.stated,
+                one_sided=_sides(own, cases, root, there),
+                misfit=cases.where(there, scene.misfit),
+            )
         if search.forward_only:
             origin = replace(origin, left_backwards=cases.counts(all_count - count))
         impact = run_forward(
