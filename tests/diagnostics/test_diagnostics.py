@@ -135,9 +135,9 @@ def two():
     return found(delta_v_a=truth.a.delta_v, energy_loss=truth.energy_loss)
 
 
-def planar(restitution):
+def planar(restitution, **b):
     """Backwards from the end of a slide."""
-    end = square(restitution=restitution, b={"vy": -8.0}, friction=0.1)
+    end = square(restitution=restitution, b={"vy": -8.0, **b}, friction=0.1)
     contact = {"normal": 0.0, "point": (0.0, 0.0), "restitution": restitution, "friction": 0.1}
     return reconstruct.planar(end.a.after, end.b.after, **contact)
 
@@ -252,6 +252,10 @@ CASES = {
         lambda: (balance(course_b="11 deg", after_a="4 deg", after_b="4.5 deg"), {}),
     ),
     "ill_conditioned": (lambda: (planar(0.1), {}), lambda: (planar(0.2), {})),
+    "motions_after_cancel": (
+        lambda: (planar(0.5, vx=18.0), {}),
+        lambda: (planar(0.5), {}),
+    ),
     "not_unique": (
         lambda: (two()[0], {}),
         lambda: (found(speed_b=8.0, delta_v_a=two()[0].a.delta_v)[0], {}),

@@ -235,6 +235,18 @@ def condition_of_planar(condition):
     return reconstruct.planar(end.a.after, end.b.after, **contact)
 
 
+def following_apart(growth):
+    """Two cars that part at 1 m/s in line, with speeds whose sum is this many times as much."""
+    cars = [
+        {"mass": 1500.0, "yaw_inertia": 2600.0, "x": x, "y": 0.0, "heading": 0.0, "vx": vx}
+        for x, vx in ((-2.0, (growth - 1.0) / 2.0), (2.0, (growth + 1.0) / 2.0))
+    ]
+    return reconstruct.planar(
+        *(col.Vehicle(**car) for car in cars),
+        normal=0.0, point=(0.0, 0.0), friction=0.0, restitution=0.5,
+    )  # fmt: skip
+
+
 def two_answers(both):
     """By a velocity of each car and the energy two restitutions fit; by the velocities
     alone one.
@@ -469,6 +481,7 @@ ROWS = [
     Row("near_collinear", math.radians(10.0), "EDCRASH manual, chapter 4",
         lambda x: by_momentum(course_b=math.pi - x), below=True),
     Row("ill_conditioned", 10.0, OWN, condition_of_planar),
+    Row("motions_after_cancel", 10.0, OWN, following_apart),
     Row("ill_conditioned", 10.0, OWN, lambda x: by_momentum(course_b=2.0 * math.atan(1.0 / x))),
     Row("near_collinear", math.radians(10.0), "EDCRASH manual, chapter 4",
         lambda x: by_components(course_b=math.pi - x), below=True),

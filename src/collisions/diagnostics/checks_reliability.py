@@ -10,9 +10,12 @@ from typing import Any
 
 from ..impact.doubts import (
     BACKWARDS,
+    MOTIONS_CANCEL,
     NEARLY_COLLINEAR,
     angle_of_courses,
     apart_in_words,
+    growth_by_motions,
+    motions_cancel,
     shares_apart,
     speeds_along,
     sticking_needs,
@@ -108,6 +111,16 @@ def ill_conditioned(case: Case) -> Iterator[Measured]:
                 "may be none: then the contact stuck, and the slip before is open"
             )
         yield Measured(origin.condition, sentence)
+
+
+@finding(
+    "growth of errors of the motions after in the closing speed, of a reconstruction from them",
+    above(MOTIONS_CANCEL),
+    "set here: one percent of error may become ten in the closing speed",
+)
+def motions_after_cancel(case: ImpactCase) -> Iterator[Measured]:
+    growth = float(growth_by_motions(case.answer))
+    yield Measured(growth, motions_cancel(growth))
 
 
 @finding(

@@ -21,6 +21,8 @@ NEARLY_COLLINEAR = math.radians(10.0)
 MAY_SLIDE = INTER_VEHICLE_FRICTION.low
 # In m/s (0.4 km/h): a speed backwards by less is below what evidence shows.
 BACKWARDS = 0.1
+# One percent of the motions after may become more than ten of the closing speed.
+MOTIONS_CANCEL = 10.0
 
 
 def doubts(impact: Impact) -> Iterator[str]:
@@ -42,6 +44,8 @@ def doubts(impact: Impact) -> Iterator[str]:
             "line: small errors of delta-V and of the courses move both speeds far"
         )
         yield from in_cases(answered & np.less(angle, NEARLY_COLLINEAR), sentence)
+    growth = growth_by_motions(impact)
+    yield from in_cases(answered & (growth > MOTIONS_CANCEL), motions_cancel(growth))
     share = shares_apart(impact)
     yield from in_cases(share > RECORDER_ACCURACY.high, apart_in_words(impact, share))
     if taken_to_stick(impact):
@@ -58,6 +62,38 @@ def sticking_needs(ratio: float, if_it_slid: str) -> str:
     return (
         f"to stick, the contact needs an impulse ratio of {ratio:.2f}, and contacts between "
         f"vehicles slide from {MAY_SLIDE:g} on; if it slid, {if_it_slid}"
+    )
+
+
+def growth_by_motions(impact: Impact) -> Any:
+    """How large a relative error of the motions after may become in the closing speed, where that
+    was found from them and a restitution; else 0.
+
+    The closing speed goes with the separation speed, a difference of the velocities that both
+    vehicles have at the contact, along the normal.
+    """
+    origin, point = impact.reconstruction, impact.point
+    if origin is None or origin.method != "planar" or "restitution" not in origin.known:
+        return 0.0
+    assert point is not None
+    (nx, ny), parts = impact.normal, 0.0
+    for side in (impact.a, impact.b):
+        body = side.after
+        with np.errstate(all="ignore"):
+            vx, vy = body.velocity_at(point)
+            at_point = nx * vx + ny * vy
+            along = 0.0 if body.pivot is not None else nx * body.vx + ny * body.vy
+            parts = parts + np.abs(along) + np.abs(at_point - along)
+    with np.errstate(all="ignore"):
+        return np.where(impact.refused, 0.0, parts / np.abs(impact.separation_speed))
+
+
+def motions_cancel(growth: Any) -> str:
+    """The sentence on the largest growth of errors of the motions after."""
+    most = float(np.max(growth, initial=0.0))
+    return (
+        "along the normal, the velocities at the contact after nearly cancel: one percent of them "
+        f"may become {most:.0f} percent of the closing speed"
     )
 
 

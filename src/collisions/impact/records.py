@@ -36,7 +36,6 @@ from .reconstruction import (
     OF_CONTACT,
     AsRecorded,
     Reconstruction,
-    from_components,
     number_beside,
     reads_as,
 )
@@ -313,7 +312,7 @@ def _origin(found: Any, velocity: Any, shape: tuple[int, ...]) -> Reconstruction
         one_sided=_sides(found.get("one_sided")),
         left_backwards=_count_or_none(found.get("left_backwards")),
         slip_if_stuck=_pair_of_cases(found.get("slip_if_stuck"), "slip_if_stuck", shape),
-        misfit=_number_if_known(found.get("misfit"), "misfit", from_components(known)),
+        misfit=_number_if_known(found.get("misfit"), "misfit", False),
         found=tuple(str(name) for name in found["found"]),
         given=_given_numbers(found["given"]),
         **{

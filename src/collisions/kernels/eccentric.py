@@ -246,7 +246,8 @@ def strike(problem: Problem, rule: str, law: str, eps: float) -> Struck:
         along_a, along_b = rt_a - ratio * rn_a, rt_b - ratio * rn_b
         resistance = per_mass + b_a * rt_a * along_a + b_b * rt_b * along_b
         jams = (resistance <= 0.0) & (sticks ^ True)
-        sliding_n = change_n / safe_divisor(resistance != 0.0, resistance)
+        # NaN where a ratio is so great that the resistance overflows: no impulse of 0 then.
+        sliding_n = change_n / safe_divisor(resistance != 0.0, resistance) + 0.0 * resistance
         impulse = select(sticks, no_slip_n, sliding_n), select(sticks, no_slip_t, ratio * sliding_n)
     singular = k.bounded & (k.regular ^ True) & needs_no_slip
     return Struck(

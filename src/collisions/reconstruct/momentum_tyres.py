@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
+from ..impact.doubts import NEARLY_COLLINEAR
 from ..impact.pulse import passed
 from ..impact.time_resolved_inputs import impulse_of, read_lasting
 from ..kernels.status import Status
@@ -241,12 +242,13 @@ TURN_ROUND = "backwards along its course; check the courses, or turn its course 
 def why_it_moves(solution: MomentumSolution) -> str:
     """Why an ill-conditioned answer moves far, by what was sought."""
     one, other = solution.unknowns
+    near = f"{math.degrees(NEARLY_COLLINEAR):.2g} degrees"
     match what_is_sought(solution):
         case "speeds":
             courses = " and ".join(solution.unknowns).replace("speed", "course")
             return (
-                f"{courses} are within 10 degrees of one line, and small errors of a course move "
-                "both far"
+                f"{courses} are within {near} of one line, and small errors of a course move both "
+                "far"
             )
         case "velocity":
             return (
@@ -255,8 +257,8 @@ def why_it_moves(solution: MomentumSolution) -> str:
             )
         case "beside":
             return (
-                f"{other} is within 10 degrees of a right angle to that of {one}, and small "
-                "errors move both far, or to the other course that fits"
+                f"{other} is within {near} of a right angle to that of {one}, and small errors "
+                "move both far, or to the other course that fits"
             )
 
 

@@ -10,13 +10,14 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from ..impact.doubts import NEARLY_COLLINEAR
 from ..kernels.reverse import Term
 from ..kernels.status import EPS
 from ..quantities.attributes import hypot
 from ..quantities.directions import Angle
 
-NEARLY_CANCELLING = (1.0 + math.cos(math.radians(10.0))) / math.sin(math.radians(10.0))
-"""Above it, as at courses within 10 degrees of one line, small errors move the answer far."""
+NEARLY_CANCELLING = 1.0 / math.tan(0.5 * NEARLY_COLLINEAR)
+"""Above it, as at courses near one line, small errors move the answer far."""
 # Of a sine of 1, what rounding may add to it.
 _ROUNDING = 16.0 * EPS
 

@@ -501,8 +501,9 @@ def _notes(
             f"corrected towards the finer model, which was asked about {count} of {total} cases"
             f"{besides}: "
             "what the correction does not foresee has, in cross-validation, a standard deviation "
-            f"(and share of that of the output) of {listed}; it is contained in the figures, "
-            "and as a share of the variance belongs to no input. What only the finer model does, "
+            f"(and share of that of the output) of {listed}; it widens the figures, and as a share "
+            "of the variance belongs to no input. Where the finer model has an edge, ends of "
+            "ranges beside it may be off by several times as much. What only the finer model does, "
             f"and in fewer than {_SEEN} of {count} cases, may be missed",
         )
     if cases := int(np.count_nonzero(unlike)):
