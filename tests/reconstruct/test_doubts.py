@@ -205,9 +205,9 @@ def test_a_reading_beyond_what_recorders_are_exact_to_is_said_with_it():
     """Summary, inputs of a study and evidence of a posterior; and a record that is cut."""
     time = np.arange(0.0, 0.26, 0.01)
     forward = pint.Quantity(-125.0 * np.clip(time / 0.11, 0.0, 1.0), "km/h")
-    with pytest.warns(col.OutOfRangeWarning, match="exact to 100 km/h"):
+    with pytest.warns(col.OutOfRangeWarning, match=r"exact to 100\.0 km/h"):
         pulse = reconstruct.recorded_pulse(time, forward, polarity="ISO 8855")
-    said = "delta-V forward goes to -125 km/h, and 49 CFR 563 asks recorders to be exact to 100"
+    said = "delta-V forward goes to -125.0 km/h, and 49 CFR 563 asks recorders to be exact to 100"
     assert said in " ".join(str(pulse.summary()).split()).replace("Delta", "delta")
     with pytest.warns(col.OutOfRangeWarning, match=r"from the recorder \(delta_v_forward_a\)"):
         study = uncertainty.propagate(

@@ -738,6 +738,18 @@ def test_the_bound_of_a_record_that_stops_early_is_told_in_km_per_hour():
         pulse = recorded_pulse(time, -10.0 * time / 0.06, polarity="ISO 8855")
     with pytest.raises(col.InputError, match=r"36\.0 km/h is a lower bound"):
         pulse.inputs("a")
+    assert any("36.0 km/h is a lower bound" in one for one in pulse.statements)
+    said = " ".join(str(pulse.summary("us")).split())
+    assert "22.4 mph is a lower bound" in said
+    assert "km/h" not in said
+
+
+def test_a_record_of_nothing_has_no_direction():
+    """A vector of 0 points nowhere."""
+    pulse = recorded_pulse(TIME, 0.0 * TIME, 0.0 * TIME, polarity="ISO 8855")
+    assert pulse.delta_v == 0.0
+    assert pulse.pdof is None
+    assert "PDOF" not in str(pulse.summary())
 
 
 def test_the_evidence_of_a_reading_has_the_deviation_of_its_range():

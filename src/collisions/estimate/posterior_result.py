@@ -244,9 +244,9 @@ class Posterior(SpeedsFound, Summarized):
             Called with the arguments, as arrays of one number per sample [SI] where they vary;
             returns one number per sample, such as ``travel.q.speed``.
         unit : str, optional
-            SI unit of the plain numbers that the function returns, such as "m/s", whatever units
-            the report is in; without it such a result has none. A function that returns Quantities,
-            as ``travel.q.speed`` does, needs none.
+            Given by its place, as the first two: SI unit of the plain numbers that the function
+            returns, such as "m/s", whatever units the report is in; without it such a result has
+            none. A function that returns Quantities, as ``travel.q.speed`` does, needs none.
         **arguments
             By argument of the function: an unknown, an output or a result of this posterior, as
             ``found["speed_a"]``; a distribution of ``uncertainty``, which is drawn for each sample

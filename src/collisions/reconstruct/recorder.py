@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal, TypeVar
 
@@ -84,13 +84,11 @@ class RecordedPulse(Shown):
         """Principal direction of force [rad], 0 ahead, positive clockwise (from the right).
 
         It is opposite to the delta-V that was recorded, in which the tyres and the place of the
-        recorder have their part. None without lateral delta-V.
+        recorder have their part. None without lateral delta-V, or without any.
         """
-        return (
-            None
-            if self.delta_v_left is None
-            else math.atan2(self.delta_v_left, -self.delta_v_forward)
-        )
+        if self.delta_v_left is None or self.delta_v == 0.0:
+            return None
+        return math.atan2(self.delta_v_left, -self.delta_v_forward)
 
     @derived("m/s")
     def error_forward(self) -> float:
@@ -124,12 +122,17 @@ class RecordedPulse(Shown):
         """What has to be said beside the numbers: that the record stops early, and that a component
         goes beyond what recorders are asked to be exact for.
         """
-        cut = () if self.ended else (_cut(self.time, self.delta_v),)
+        return tuple(self._statements(_in_kmh))
+
+    def _statements(self, say: Callable[[float], str]) -> list[str]:
+        said = [] if self.ended else [_cut(self.time, self.delta_v, say)]
         parts = {"forward": self.forward, "left": self.left}
-        beyond = (
-            _beyond(f"delta-V {name}", part) for name, part in parts.items() if part is not None
+        said += (
+            _beyond(f"delta-V {name}", part, say)
+            for name, part in parts.items()
+            if part is not None
         )
-        return *cut, *filter(None, beyond)
+        return [one for one in said if one]
 
     def _summary(self, numbers: Cells) -> Summary:
         values = {
@@ -161,7 +164,8 @@ class RecordedPulse(Shown):
             if error is not None:
                 rows[name] += f", within {numbers.text(error, 'm/s')}"
         parts = [Part(list(rows.items())), all_numbers(self._rows())]
-        return Summary(self._title, parts, [*map(as_sentence, self.statements)])
+        said = self._statements(lambda speed: numbers.text(speed, "m/s"))
+        return Summary(self._title, parts, [*map(as_sentence, said)])
 
     def inputs(self, label: Literal["a", "b"]) -> dict[str, Any]:
         """The components with their errors, named as the arguments of ``reconstruct.speeds``, as
@@ -426,14 +430,18 @@ def _need_none_before(times: Any, parts: Mapping[str, Any]) -> None:
             )
 
 
-def _beyond(name: str, part: Any) -> str:
+def _in_kmh(speed: float) -> str:
+    return f"{3.6 * speed:.1f} km/h"
+
+
+def _beyond(name: str, part: Any, say: Callable[[float], str] = _in_kmh) -> str:
     """That a component goes beyond what recorders are asked to be exact for; "" if it does not."""
     worst = float(part[np.argmax(abs(part))])
     if abs(worst) <= RECORDER_RANGE.high * (1.0 + 1e-9):
         return ""
     return (
-        f"{name} goes to {3.6 * worst:.4g} km/h, and 49 CFR 563 asks recorders to be exact to "
-        f"{3.6 * RECORDER_RANGE.high:.0f} km/h: its error may be larger than what is stated of it"
+        f"{name} goes to {say(worst)}, and 49 CFR 563 asks recorders to be exact to "
+        f"{say(RECORDER_RANGE.high)}: its error may be larger than what is stated of it"
     )
 
 
@@ -484,10 +492,10 @@ def _evidence(samples: Any, at: int, ended: bool) -> Normal | Censored | None:
     return Censored(low=value, error=error) if value > 0.0 else Censored(high=value, error=error)
 
 
-def _cut(times: Any, size: float) -> str:
+def _cut(times: Any, size: float, say: Callable[[float], str] = _in_kmh) -> str:
     return (
-        f"the record stops at {times[-1]:.3g} s while delta-V still changes: {3.6 * size:.1f} "
-        "km/h is a lower bound"
+        f"the record stops at {times[-1]:.3g} s while delta-V still changes: {say(size)} is a "
+        "lower bound"
     )
 
 
