@@ -205,10 +205,12 @@ def test_a_reading_beyond_what_recorders_are_exact_to_is_said_with_it():
     """Summary, inputs of a study and evidence of a posterior; and a record that is cut."""
     time = np.arange(0.0, 0.26, 0.01)
     forward = pint.Quantity(-125.0 * np.clip(time / 0.11, 0.0, 1.0), "km/h")
-    with pytest.warns(col.OutOfRangeWarning, match=r"exact to 100\.0 km/h"):
+    with pytest.warns(col.OutOfRangeWarning, match="exact to 100 km/h"):
         pulse = reconstruct.recorded_pulse(time, forward, polarity="ISO 8855")
-    said = "delta-V forward goes to -125.0 km/h, and 49 CFR 563 asks recorders to be exact to 100"
-    assert said in " ".join(str(pulse.summary()).split()).replace("Delta", "delta")
+    said = "delta-V forward goes to -125 km/h, and 49 CFR 563 asks recorders to be exact to 100"
+    assert any(said in one for one in pulse.statements)
+    printed = " ".join(str(pulse.summary()).split()).replace("Delta", "delta")
+    assert said.replace("-125 km/h", "-125.0 km/h") in printed
     with pytest.warns(col.OutOfRangeWarning, match=r"from the recorder \(delta_v_forward_a\)"):
         study = uncertainty.propagate(
             lambda delta_v_forward_a: {"x": delta_v_forward_a}, pulse.inputs("a"), samples=64

@@ -431,7 +431,7 @@ def _need_none_before(times: Any, parts: Mapping[str, Any]) -> None:
 
 
 def _in_kmh(speed: float) -> str:
-    return f"{3.6 * speed:.1f} km/h"
+    return f"{3.6 * speed:.4g} km/h"
 
 
 def _beyond(name: str, part: Any, say: Callable[[float], str] = _in_kmh) -> str:
