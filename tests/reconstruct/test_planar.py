@@ -417,6 +417,20 @@ def test_how_often_there_are_two():
     assert 0.02 * sliding < two_of_sliding < 0.6 * sliding, counts
 
 
+def test_a_slip_of_rounding_gives_no_second_origin():
+    """After a contact that stuck a share of the critical ratio is that of no tangential impulse,
+    whatever the rounding of the slip.
+    """
+    rng = random.Random(1)
+    for _ in range(40):
+        a = A.replace(vx=rng.uniform(5.0, 30.0), vy=rng.uniform(-5.0, 5.0))
+        b = B.replace(vx=rng.uniform(-20.0, 0.0), vy=rng.uniform(-8.0, 8.0))
+        end = col.eccentric(a, b, 0.15, friction=9.0, **CONTACT)
+        assert end.regime == "sticking"
+        one = backwards(end, critical_fraction=0.5)
+        assert one.impulse_ratio == pytest.approx(0.0, abs=1e-9)
+
+
 @pytest.mark.slow
 def test_a_share_of_the_critical_ratio_may_have_two_origins():
     """Every solution has the share of its own critical ratio, and its ratio gives it alone."""

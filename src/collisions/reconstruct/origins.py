@@ -384,6 +384,9 @@ class End:
             # With e = -1 the wanted change along the normal is 0, and what remains is the slip.
             only_slip = self._contact(e=-1.0)
             y_n, y_t = 0.0 - only_slip.no_slip_normal, 0.0 - only_slip.no_slip_tangential
+            # Of a slip that is rounding one root would be its reciprocal.
+            none = abs(self.slip) <= self.noise
+            y_n, y_t = np.where(none, 0.0, y_n), np.where(none, 0.0, y_t)
         share = self.bound
         square = y_n * self.k_nt
         linear = (
