@@ -26,7 +26,8 @@ from ..reconstruct.found_again import need_found_again
 from ..scene.one_run import need_one_run
 from ..scene.run import Run
 from ..uncertainty.distributions import Interval
-from ..uncertainty.result import Output, Propagation, ends_of, varies
+from ..uncertainty.output import Output, ends_of, varies
+from ..uncertainty.result import Propagation
 from ..vehicle.vehicle import Vehicle, named
 from .contact import impulse_and_energy, motions, normal
 from .evidence import MOMENTUM_ANSWERS, fit, momentum, momentum_answers

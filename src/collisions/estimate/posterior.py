@@ -24,8 +24,8 @@ from ..uncertainty.distribution import notes_of_inputs
 from ..uncertainty.distributions import Distribution
 from ..uncertainty.finer import FinerModel
 from ..uncertainty.model import AnyModel, Model, function_of, range_hint, scene_among, units_taken
+from ..uncertainty.output_notes import unanswered_notes, wrap_notes, wraps_of
 from ..uncertainty.propagation import check_options
-from ..uncertainty.result import unanswered_notes, wrap_notes, wraps_of
 from ..uncertainty.sampling import Correlation, Joint
 from ..uncertainty.turns import folded
 from .at_level import at_level

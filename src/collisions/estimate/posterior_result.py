@@ -21,18 +21,11 @@ from ..quantities.units import rendered, shown
 from ..uncertainty.distribution import found_by, notes_of_inputs, stated_in
 from ..uncertainty.distributions import Censored, Distribution, Normal, Samples, Uniform
 from ..uncertainty.normal import power_of_two
+from ..uncertainty.output import Shares, bare_notes, outputs_part
+from ..uncertainty.output_notes import unanswered_notes, wrap_notes, wraps_of
 from ..uncertainty.probability import holds
-from ..uncertainty.result import (
-    Sampled,
-    Shares,
-    bare_notes,
-    correlations,
-    outputs_part,
-    unanswered_notes,
-    units_of,
-    wrap_notes,
-    wraps_of,
-)
+from ..uncertainty.result import units_of
+from ..uncertainty.sampled import Sampled, correlations
 from .fit_result import CONTRADICTION, Residual, SpeedsFound, agreement, with_unit
 from .worked_out import in_words, stated, worked_out
 

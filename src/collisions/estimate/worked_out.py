@@ -17,7 +17,8 @@ from ..quantities.settings import in_si, units_required
 from ..quantities.units import rendered, shown, si_unit
 from ..uncertainty.distributions import Distribution, Interval
 from ..uncertainty.model import Model
-from ..uncertainty.result import InUnit, Sampled
+from ..uncertainty.output import InUnit
+from ..uncertainty.sampled import Sampled
 from ..uncertainty.sampling import Joint
 from .fit_result import with_unit
 

@@ -14,7 +14,9 @@ from ..messages.hints import hinted
 from ..quantities.formatting import UnitSystem, with_decimals
 from ..quantities.units import shown
 from ..uncertainty.intervals import Bounds
-from ..uncertainty.result import COVERAGE, Output, Propagation, Sampled
+from ..uncertainty.output import COVERAGE, Output
+from ..uncertainty.result import Propagation
+from ..uncertainty.sampled import Sampled
 from .canvas import (
     BARS,
     FORCE,

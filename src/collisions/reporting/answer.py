@@ -19,7 +19,7 @@ from ..quantities.tables import as_sentence, label_of
 from ..quantities.user_text import plain
 from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..uncertainty import Output, Propagation
-from ..uncertainty.result import figures
+from ..uncertainty.output import figures
 from .posterior_part import answers_of, warned_of
 from .render import Sheet
 from .uncertainty import Spread

@@ -19,7 +19,8 @@ from ..quantities.formatting import SI_UNITS
 from ..quantities.user_text import visible
 from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..uncertainty import Propagation
-from ..uncertainty.result import Sampled, varies
+from ..uncertainty.output import varies
+from ..uncertainty.sampled import Sampled
 from .posterior_part import answers_of
 from .render import Html, Markdown
 from .uncertainty import Spread, shares_of

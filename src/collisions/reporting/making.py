@@ -33,7 +33,7 @@ from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..scene.one_run import need_one_run
 from ..scene.run import Run
 from ..uncertainty import Propagation
-from ..uncertainty.result import outputs_part, varies
+from ..uncertainty.output import outputs_part, varies
 from ..vehicle.drag import USUAL_DURATION
 from . import figures as drawing
 from . import sections

@@ -20,7 +20,7 @@ from ..reconstruct import Fit, Posterior
 from ..uncertainty import Propagation
 from ..uncertainty.distribution import Statement, stated_in
 from ..uncertainty.distributions import Normal
-from ..uncertainty.result import outputs_part
+from ..uncertainty.output import outputs_part
 from .render import Sheet
 
 _OF_NUMBER = "0123456789.e+-"

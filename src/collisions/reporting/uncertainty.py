@@ -20,7 +20,7 @@ from ..reconstruct import Fit, MomentumSolution, Posterior
 from ..scene.run import Run
 from ..uncertainty import Interval, Output, Propagation
 from ..uncertainty.distribution import stated_in
-from ..uncertainty.result import NO_SPREAD, NOTHING, figures, varies
+from ..uncertainty.output import NO_SPREAD, NOTHING, figures, varies
 from .render import Sheet
 from .scene_words import result_in_words
 from .words import Names

@@ -14,8 +14,9 @@ from .distributions import (
 )
 from .halved import Halved
 from .one_sided import OneSided
+from .output import Histogram, Output, Shares
 from .propagation import propagate
-from .result import Histogram, Output, Propagation, Shares
+from .result import Propagation
 
 __all__ = [
     "Censored",

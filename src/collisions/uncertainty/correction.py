@@ -17,8 +17,9 @@ from .distribution import show
 from .finer import FinerModel
 from .model import Model
 from .one_sided import Answers
+from .output import NO_SPREAD, Shares
 from .probability import Again
-from .result import NO_SPREAD, Sampled, Shares, average, deviation
+from .sampled import Sampled, average, deviation
 
 _FOLDS = 8
 _PER_TERM = 4  # cases for each term of a regression

@@ -20,7 +20,8 @@ from ..messages.errors import NoSolutionError
 from . import normal
 from . import turns as angles
 from .model import Model, count_failed
-from .result import Output, Shares, average, deviation
+from .output import Output, Shares
+from .sampled import average, deviation
 from .sampling import Joint
 
 # A step in standard deviations: the differences below err by its fourth power and by rounding

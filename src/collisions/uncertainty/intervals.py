@@ -24,8 +24,9 @@ from .derivatives import Local
 from .designs import REPLICATES
 from .model import Model, count_failed
 from .normal import power_of_two
+from .output import COVERAGE, Output, Shares
 from .probability import Condition
-from .result import COVERAGE, Output, Sampled, Shares
+from .sampled import Sampled
 
 COMMON_CASES = 16 * REPLICATES  # drawn cases, the same at every point
 _BLOCK = 2**16  # cases a call

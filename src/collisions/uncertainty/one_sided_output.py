@@ -15,7 +15,8 @@ from ..quantities.attributes import OWN_UNIT, derived
 from ..quantities.formatting import Numbers
 from ..quantities.strict_json import strict
 from . import turns as angles
-from .result import COVERAGE, Histogram, Output, Sampled, Shares
+from .output import COVERAGE, Histogram, Output, Shares
+from .sampled import Sampled
 
 _PERCENT = f"{100.0 * (0.5 + 0.5 * COVERAGE):g}"
 

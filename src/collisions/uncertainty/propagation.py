@@ -44,7 +44,10 @@ from .model import (
 )
 from .one_sided import Answers, OneSided
 from .one_sided_output import OneSidedOutput, one_sided_notes
-from .result import Output, Propagation, Sampled, Shares, tail_notes, wrap_notes, wraps_of
+from .output import Output, Shares
+from .output_notes import tail_notes, wrap_notes, wraps_of
+from .result import Propagation
+from .sampled import Sampled
 from .sampling import Correlation, Joint, Sample, sampled_shares
 
 Method: TypeAlias = Literal[

@@ -26,7 +26,8 @@ from .distributions import Distribution, Samples
 from .model import Model
 from .normal_family import is_whole_normal
 from .one_sided import Answers, joined
-from .result import Shares, average, deviation
+from .output import Shares
+from .sampled import average, deviation
 
 # Correlation of the normal scores of two inputs, by the pair of their names.
 Correlation: TypeAlias = Mapping[tuple[str, str], float]
