@@ -1048,6 +1048,10 @@ WARNINGS = [
         lambda x: reconstruct.recorded_pulse(
         [0.0, 0.1, 0.2], [0.0, -9.0, -9.0], pint.Quantity([0.0, x, x], "km/h"),
         polarity="ISO 8855")),
+    Warned("delta-V after the end of an event, of all of it", 0.1, RANGE, "went_on",
+        lambda x: reconstruct.recorded_pulse(
+        [0.0, 0.1, 0.2, 0.3, 0.4], [0.0, -9.0 * (1.0 - x), -9.0 * (1.0 - x), -9.0, -9.0],
+        polarity="ISO 8855")),
     Warned("change at the end of a record", 0.8 / 3.6, RANGE, "pulse_cut", a_record_that_stops),
     Warned("fit within its bounds", 2.0 * statistics.NormalDist().inv_cdf(0.975), CONDITION,
         "told_by_bounds", one_reading, below=True),

@@ -278,3 +278,53 @@ def test_an_array_with_a_unit_has_one():
         assert cars.vx[0] == pytest.approx(13.4112, rel=1e-15)
         with pytest.raises(col.UnitsError, match=r"vx = .* has no unit"):
             col.Vehicle(mass="1500 kg", vx=np.array([30.0, 35.0]))
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "argument"),
+    [
+        ("normal", 5, "normal"),
+        ("point", (0.1, 0), r"point\[0\]"),
+        ("outside_a", (100, 0), r"outside_a\[0\]"),
+    ],
+)
+def test_what_is_changed_of_an_impact_needs_a_unit_and_the_rest_does_not(name, value, argument):
+    bare = col.eccentric(
+        col.Vehicle(mass=1500.0, yaw_inertia=2500.0, vx=15.0, x=-2.0, y=0.0, heading=0.0),
+        col.Vehicle(mass=1200.0, yaw_inertia=2000.0, x=2.0, y=0.5, heading=1.0),
+        0.1,
+        normal=0.1,
+        point=(0.0, 0.2),
+        friction=0.5,
+    )
+    with col.options(require_units=True):
+        for hit in (crash(), bare):
+            with pytest.raises(col.UnitsError, match=f"{argument} = .* has no unit"):
+                hit.again(**{name: value})
+            assert hit.again().closing_speed == hit.closing_speed
+            assert hit.again(friction=0.4).closing_speed == hit.closing_speed
+            assert hit.again(normal="5 deg").ok
+    assert crash().again(**{name: value}).closing_speed
+
+
+def test_every_heading_and_point_of_a_run_out_needs_a_unit():
+    """Of a list each; an array has one as a whole."""
+    points = [("0 m", 0), ("5 m", "1 m"), ("9 m", "1 m")]
+    wheels = {"friction": 0.7, "lock": 0.3}
+    registry = pint.UnitRegistry()
+    with col.options(require_units=True):
+        with pytest.raises(col.UnitsError, match=r"headings\[2\] = 1"):
+            travel.path(points, ["0 deg", "5 deg", 1.0], **wheels)
+        with pytest.raises(col.UnitsError, match=r"(?s)headings\[1\] = 2.*headings\[2\] = 3"):
+            travel.path(points, [0, 2, 3], **wheels)
+        with pytest.raises(col.UnitsError, match="headings = "):
+            travel.path(points, np.array([0.0, 0.2, 0.3]), **wheels)
+        with pytest.raises(col.UnitsError, match=r"points\[1\]\[0\] = 5"):
+            travel.path([(0, 0), (5, 1)], ["0 deg", "9 deg"], **wheels)
+        of_lists = travel.path(points, ["0 deg", "20 deg", "30 deg"], **wheels)
+        of_arrays = travel.path(
+            registry.Quantity([[0.0, 0.0], [5.0, 1.0], [9.0, 1.0]], "m"),
+            registry.Quantity([0.0, 20.0, 30.0], "deg"),
+            **wheels,
+        )
+    assert of_arrays.speed == pytest.approx(of_lists.speed, rel=1e-12)

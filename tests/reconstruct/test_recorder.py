@@ -796,3 +796,60 @@ def test_three_decimals_are_decimals_where_the_column_shows_it(tmp_path):
         path.write_text(f"time [ms];longitudinal [km/h]\n{rows}", encoding="utf-8")
         pulse = recorded_pulse(path, polarity="49 CFR 563")
         assert pulse.delta_v_forward == pytest.approx(-24.124 * KMH, rel=1e-12)
+
+
+LONG = np.arange(0.0, 0.4001, 0.01)
+
+
+@pytest.mark.parametrize(
+    ("speed", "ended", "had"),
+    [
+        # Locked wheels from 0.11 s on, 0.49 km/h in each 20 ms.
+        (
+            24.0 * np.clip(LONG / 0.11, 0.0, 1.0) + 24.7 * np.clip(LONG - 0.11, 0.0, None),
+            0.13,
+            24.5,
+        ),
+        # Another impact, from 0.16 s on.
+        (
+            10.0 * np.clip(LONG / 0.08, 0.0, 1.0) + 15.0 * np.clip((LONG - 0.16) / 0.08, 0.0, 1.0),
+            0.1,
+            10.0,
+        ),
+    ],
+)
+def test_delta_v_after_the_end_of_the_event_is_said(speed, ended, had):
+    """49 CFR 563.7, Table I: the maximum is sought up to 30 ms after the end of the event."""
+    with pytest.warns(col.OutOfRangeWarning, match=f"had ended at {ended:g} s") as warned:
+        pulse = recorded_pulse(LONG, -speed / 3.6, polarity="49 CFR 563")
+    assert [one.message.code for one in warned] == ["went_on"]
+    (said,) = pulse.statements
+    assert f"went on to {speed.max():.4g} km/h at {LONG[np.argmax(speed)]:.3g} s" in said
+    assert "mph" in " ".join(str(pulse.summary("us")).split()).partition("went on to")[2]
+    with pytest.warns(col.OutOfRangeWarning, match="went on to"):
+        study = uncertainty.propagate(
+            lambda delta_v_forward_b: {"x": delta_v_forward_b}, pulse.inputs("b"), samples=64
+        )
+    assert any(said in one for one in study.statements)
+    with pytest.warns(col.OutOfRangeWarning, match="went on to"):
+        found = posterior(
+            lambda v: {"y": v},
+            {"v": uncertainty.Uniform(-20.0, 0.0)},
+            {"y": pulse.evidence[0]},
+            samples=512,
+            seed=1,
+        )
+    assert any(said in one for one in found.statements)
+    # The samples after the end left out, there is nothing to say.
+    count = np.count_nonzero(ended + 0.02 >= LONG)
+    cut = recorded_pulse(LONG[:count], -speed[:count] / 3.6, polarity="49 CFR 563")
+    assert cut.statements == ()
+    assert cut.delta_v * 3.6 == pytest.approx(had, abs=0.5)
+
+
+def test_what_comes_within_the_stated_error_after_the_end_is_not_said():
+    """A step of rounding, and little braking: the range holds both."""
+    for later in (1.0, 2.0):
+        speed = 24.0 * np.clip(TIME / 0.11, 0.0, 1.0) + later * np.greater(TIME, 0.195)
+        pulse = recorded_pulse(TIME, -speed / 3.6, polarity="49 CFR 563")
+        assert pulse.statements == ()

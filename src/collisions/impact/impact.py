@@ -668,7 +668,8 @@ class Impact(_SpeedsBefore, Frozen, Summarized):
         }
         if inputs.model == "time_resolved" and changes.keys() & set(STIFFNESSES):
             changed = dict.fromkeys(STIFFNESSES) | changed
-        return solved(read_again(replace(inputs, **changed, given=given, contact_velocity=None)))
+        changed |= {"given": given, "contact_velocity": None}
+        return solved(read_again(replace(inputs, **changed), changed=changes.keys()))
 
     def case(self, index: int | tuple[int, ...]) -> Impact:
         """One case of a batch as a single impact, to look at, plot, explain or report.

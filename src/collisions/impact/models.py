@@ -5,7 +5,7 @@ assumptions.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 from functools import cache, partial
 from typing import Any
@@ -345,8 +345,8 @@ _READERS: dict[str, Callable[..., Inputs]] = {
 }
 
 
-def read_again(inputs: Inputs, found: bool = False) -> Inputs:
-    """Inputs with changed values, which may be of any form a caller may give; read again like a
+def read_again(inputs: Inputs, found: bool = False, changed: Collection[str] = ()) -> Inputs:
+    """Inputs with ``changed`` values, which may be of any form a caller may give; read again like a
     caller's arguments.
 
     Inputs that a reverse solver ``found`` have a restitution of NaN where it found none.
@@ -364,7 +364,7 @@ def read_again(inputs: Inputs, found: bool = False) -> Inputs:
         BRACH if inputs.law is None else inputs.law,
     )
     beside = (name for name in ARGUMENTS[inputs.model] if name not in _IN_ARGUMENTS)
-    with in_si(), given_with_unit(inputs.given or {}):
+    with in_si(but=changed), given_with_unit(inputs.given or {}):
         again = _READERS[inputs.model](
             arguments, **{name: getattr(inputs, name) for name in beside}
         )

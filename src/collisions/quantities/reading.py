@@ -35,7 +35,7 @@ from ..messages.errors import (
 from ..messages.marked import a_type_of, as_code, type_of
 from ..messages.warning import warn
 from .refusals import must_be
-from .settings import Default, had_unit, units_required
+from .settings import Default, had_unit, unit_required
 from .units import (
     Texts,
     example,
@@ -114,7 +114,7 @@ class ArgumentReader:
                 return self.refuse(problem_found)
         bare = not text and (type(value) is float or not is_quantity(value) or not value._units)
         if bare and argument not in self.trusted:
-            strict = unit and units_required.get() and not isinstance(value, (Default, Worked))
+            strict = unit and unit_required(argument) and not isinstance(value, (Default, Worked))
             if strict and 0.0 < largest(read) < math.inf:
                 return self.refuse(_without_unit(value, unit, argument))
             _warn_if_implausible(read, unit, argument)

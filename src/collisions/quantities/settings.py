@@ -15,7 +15,8 @@ from .refusals import yes_or_no
 
 F = TypeVar("F", bound=Callable[..., Any])
 
-units_required: ContextVar[bool] = ContextVar("units_required", default=False)
+# Or the names of the arguments that need one, among numbers of the package's own.
+units_required: ContextVar[bool | frozenset[str]] = ContextVar("units_required", default=False)
 _callers: ContextVar[bool] = ContextVar("_callers", default=False)
 _with_unit: ContextVar[Collection[str]] = ContextVar("_with_unit", default=())
 
@@ -67,9 +68,19 @@ class options:
         units_required.reset(self._before)
 
 
-def in_si() -> AbstractContextManager[None]:
-    """Within this context numbers need no unit: they are the package's own, in SI."""
-    return _set(units_required, False)
+def in_si(but: Collection[str] = ()) -> AbstractContextManager[None]:
+    """Within this context numbers need no unit: they are the package's own, in SI; ``but`` for
+    those of these arguments, which are the caller's.
+    """
+    return _set(units_required, units_required.get() and frozenset(but))
+
+
+def unit_required(argument: str) -> bool:
+    """Whether the caller asked for a unit of this argument, or of what this is an element of."""
+    required = units_required.get()
+    if isinstance(required, bool):
+        return required
+    return argument.partition("[")[0] in required
 
 
 def callers_options() -> AbstractContextManager[None]:

@@ -39,6 +39,8 @@ _LEFTWARD = {"49 CFR 563": -1.0, "ISO 8855": 1.0}
 # 49 CFR 563.5: the event has ended when the resultant changes by no more than 0.8 km/h within 20
 # ms.
 _QUIET_CHANGE, _QUIET_TIME = 0.8 / 3.6, 0.020
+# 563.7, Table I: the maximum is that up to 30 ms after the end of the event.
+_BEYOND_THE_END = 0.030
 # A reading may be off by a step of the recorder.
 _STEP = RECORDER_RESOLUTION.high * (1.0 + 1e-9)
 _LONGEST = 3.0  # s; no contact of vehicles lasts longer
@@ -113,19 +115,21 @@ class RecordedPulse(Shown):
 
         def of(name: str, part: Any) -> Normal | Censored | None:
             found = None if part is None else _evidence(part, at, self.ended)
-            return None if found is None else _with_note(found, name, part)
+            return None if found is None else self._with_notes(found, name, part)
 
         return of("forward", self.forward), of("left", self.left)
 
     @property
     def statements(self) -> tuple[str, ...]:
-        """What has to be said beside the numbers: that the record stops early, and that a component
-        goes beyond what recorders are asked to be exact for.
+        """What has to be said beside the numbers: that the record stops early, that delta-V went on
+        after the event had ended, and that a component goes beyond what recorders are asked to be
+        exact for.
         """
         return tuple(self._statements(_in_kmh))
 
     def _statements(self, say: Callable[[float], str]) -> list[str]:
         said = [] if self.ended else [_cut(self.time, self.delta_v, say)]
+        said += [_went_on(self.time, self.forward, self.left, say)]
         parts = {"forward": self.forward, "left": self.left}
         said += (
             _beyond(f"delta-V {name}", part, say)
@@ -202,13 +206,22 @@ class RecordedPulse(Shown):
             "left": (self.delta_v_left, self.left),
         }
         found: dict[str, Any] = {
-            f"delta_v_{part}_{label}": _with_note(
+            f"delta_v_{part}_{label}": self._with_notes(
                 Uniform(value - _error(value), value + _error(value)), part, samples
             )
             for part, (value, samples) in parts.items()
             if value is not None
         }
         return found if self.place is None else found | {f"recorder_{label}": self.place}
+
+    def _with_notes(self, reading: T, name: str, part: Any) -> T:
+        """The reading with what a study of it has to state."""
+        said = {
+            "went_on": _went_on(self.time, self.forward, self.left),
+            "beyond_recorder": _beyond(f"delta-V {name}", part),
+        }
+        notes = [Note(OutOfRangeWarning, text, code=code) for code, text in said.items() if text]
+        return found_by("the recorder", {name: reading}, notes)[name] if notes else reading
 
 
 @hinted
@@ -266,8 +279,10 @@ def recorded_pulse(
     Warns
     -----
     OutOfRangeWarning
-        The record stops early (code ``pulse_cut``); or a component exceeds the 100 km/h over which
-        49 CFR 563 demands accuracy (``reference.RECORDER_RANGE``; code ``beyond_recorder``).
+        The record stops early (code ``pulse_cut``); delta-V went on by more than its stated error
+        later than 30 ms after the first 20 ms in which it hardly changed, as by braking or another
+        impact (``went_on``); or a component exceeds the 100 km/h over which 49 CFR 563 demands
+        accuracy (``reference.RECORDER_RANGE``; code ``beyond_recorder``).
     SuspectUnitsWarning
         Such a component without a unit: perhaps km/h or an acceleration.
 
@@ -360,6 +375,8 @@ def recorded_pulse(
     ended = _ended(times, size, at)
     if not ended:
         warn(OutOfRangeWarning(_cut(times, size[at]), code="pulse_cut"))
+    if went_on := _went_on(times, ahead, aside):
+        warn(OutOfRangeWarning(went_on, code="went_on"))
     found = RecordedPulse(
         delta_v_forward=float(ahead[at]),
         delta_v_left=None if aside is None else float(aside[at]),
@@ -445,14 +462,6 @@ def _beyond(name: str, part: Any, say: Callable[[float], str] = _in_kmh) -> str:
     )
 
 
-def _with_note(reading: T, name: str, part: Any) -> T:
-    """The reading with what a study of it has to state."""
-    if not (text := _beyond(f"delta-V {name}", part)):
-        return reading
-    note = Note(OutOfRangeWarning, text, code="beyond_recorder")
-    return found_by("the recorder", {name: reading}, [note])[name]
-
-
 def _warn_if_beyond(name: str, part: Any, bare: bool) -> None:
     """Warn of a component beyond what recorders are asked to be exact for."""
     if not (beyond := _beyond(name, part)):
@@ -496,6 +505,30 @@ def _cut(times: Any, size: float, say: Callable[[float], str] = _in_kmh) -> str:
     return (
         f"the record stops at {times[-1]:.3g} s while delta-V still changes: {say(size)} is a "
         "lower bound"
+    )
+
+
+def _went_on(times: Any, forward: Any, left: Any, say: Callable[[float], str] = _in_kmh) -> str:
+    """That the largest resultant comes after the end of the event, and differs from the largest
+    until then by more than its stated error; "" if it does not.
+    """
+    size, at = _resultant(forward, left), _largest(times, forward, left)
+    since = np.interp(times - _QUIET_TIME, times, size)
+    # Before it has come to more than a step of the recorder, the event has not begun.
+    quiet = (since > _STEP) & (abs(size - since) <= _QUIET_CHANGE + 1e-12)
+    quiet &= times - _QUIET_TIME >= times[0] - 1e-9
+    if not quiet.any():
+        return ""
+    end = times[np.argmax(quiet)]
+    until = int(np.argmax(np.where(times <= end + _BEYOND_THE_END + 1e-9, size, -1.0)))
+    parts = [forward] if left is None else [forward, left]
+    apart = math.hypot(*(part[at] - part[until] for part in parts))
+    if times[at] <= times[until] or apart <= _error(size[at]):
+        return ""
+    return (
+        f"by 49 CFR 563 the event had ended at {end:.3g} s, with {say(size[until])}, and delta-V "
+        f"went on to {say(size[at])} at {times[at]:.3g} s: braking or another impact may be in it; "
+        "if it is, leave out the samples after the end"
     )
 
 

@@ -117,15 +117,19 @@ class Areas(NamedTuple):
 
     def clear(self, x: Any, y: Any, heading: Any, left: Any) -> Any:
         """Whether no wheel comes near an edge of a vehicle that goes ``left`` until it rests."""
+        far = self._to_edges(x, y, heading)
+        found: Any = far > _CLEAR * self.length * (left + _NEAR)
+        return found
+
+    def _to_edges(self, x: Any, y: Any, heading: Any) -> Any:
+        """How far the nearest wheel is from the nearest edge [m]."""
         px, py = (part[:, None] for part in self.wheels(x, y, heading))
         (qx, qy), (rx, ry) = (part.T[..., None] for part in self._edges())
         ex, ey, away_x, away_y = rx - qx, ry - qy, px - qx, py - qy
         square = ex * ex + ey * ey
         share = (away_x * ex + away_y * ey) / np.where(square > 0.0, square, 1.0)
         share = np.clip(share, 0.0, 1.0)
-        far = np.hypot(away_x - share * ex, away_y - share * ey).min(axis=(0, 1))
-        found: Any = far > _CLEAR * self.length * (left + _NEAR)
-        return found
+        return np.hypot(away_x - share * ex, away_y - share * ey).min(axis=(0, 1))
 
     def crossed(self, before: Any, after: Any, spin: Any) -> Any:
         """The share of the time of a step at which a wheel first crosses an edge; 1 or more if none
@@ -136,16 +140,15 @@ class Areas(NamedTuple):
         count = before.shape[1]
         found = np.ones(count)
         edges = self._edges()
-        # Most steps are away from all areas.
-        ends = [self.wheels(*(rows[at] for at in (1, 2, 3))) for rows in (before, after)]
-        most = np.hypot(self.ahead_of[0], self.left_of[0]) + self.length * (after[0] - before[0])
-        low, high = edges.min(axis=(0, 1)), edges.max(axis=(0, 1))
-        near = np.ones(count, dtype=bool)
-        for axis in (0, 1):
-            at = np.array([end[axis] for end in ends])
-            near &= (at.max(axis=(0, 1)) + most >= low[axis]) & (
-                at.min(axis=(0, 1)) - most <= high[axis]
-            )
+        # Most steps are away from all edges: a wheel goes no further than by twice the greater of
+        # the speeds at both ends.
+        lever = np.hypot(self.ahead_of, self.left_of).max(axis=0)
+        speeds = [
+            self.length * np.hypot(rows[4], rows[5]) + lever * np.abs(spin * rows[6])
+            for rows in (before, after)
+        ]
+        reach = 2.0 * (after[0] - before[0]) * np.maximum(*speeds) + _NEAR * self.length
+        near = self._to_edges(*before[1:4]) <= reach
         if not near.any():
             return found
         some = np.flatnonzero(near)

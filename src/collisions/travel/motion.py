@@ -38,8 +38,8 @@ _MOST_STEPS = 10_000
 # A slowing below this share of gravity is none.
 _NO_SLOWING = 1e-9
 # Cases that are left are followed one by one, in plain floats, which is quicker than arrays of
-# them.
-_FEW = 16
+# them; not so where wheels may cross edges, which is found in arrays.
+_FEW, _FEW_BESIDE_EDGES = 16, 2
 # A step is wider than the one before by this at most, and by this share of what the error of smooth
 # forces allows: theirs bend, and a step that failed was taken in vain.
 _WIDEST, _SAFE = 1.5, 0.9
@@ -144,7 +144,7 @@ def follow(motion: Motion, until: Any = None, going: Any = None) -> Followed:
     kept: list[tuple[Any, Any]] = []
     found: Any = np.full(count, NO_END)
     state = np.zeros((STATE, count))
-    if count <= _FEW:
+    if count <= _few(motion):
         for case in range(count):
             start = None if going is None else going[:, case].tolist()
             rows, found[case], state[:, case] = _one(motion.of([case]), start, float(until[case]))
@@ -159,6 +159,11 @@ def follow(motion: Motion, until: Any = None, going: Any = None) -> Followed:
             if not _holds(motion.of([case]), *place):
                 found[case] = GOES_ON
     return followed
+
+
+def _few(motion: Motion) -> int:
+    """So many cases, and fewer, are followed one by one."""
+    return _FEW if motion.areas is None else _FEW_BESIDE_EDGES
 
 
 def _by_case(kept: list[tuple[Any, Any]], count: int) -> tuple[Any, Any]:
@@ -395,7 +400,7 @@ def _several(
     motion: Motion, kept: list[tuple[Any, Any]], found: Any, states: Any, start: Any, until: Any
 ) -> None:
     """The rows of all cases, followed together in arrays; those that are left over one by one."""
-    areas, tolerance, last = motion.areas, motion.tolerance, _last(motion)
+    areas, tolerance, last, few = motion.areas, motion.tolerance, _last(motion), _few(motion)
     alone = areas is None and not motion.settings.sloped
     ground: Any = motion.ground.copy()
     going: Any = np.arange(motion.start.shape[1])
@@ -414,7 +419,7 @@ def _several(
         kept.append((going[which], rows))
 
     for _ in range(_MOST_STEPS):
-        if len(going) <= _FEW:
+        if len(going) <= few:
             break
         c, s = np.cos(state[3]), np.sin(state[3])
         if fresh.any():
@@ -460,10 +465,10 @@ def _several(
         rests = nears | arcs
         if areas is not None and rests.any():
             some = np.flatnonzero(rests)
-            few = nears[some] & (left[some] <= (_ON_EDGES * last) ** 2 * state[10, some])
+            brief = nears[some] & (left[some] <= (_ON_EDGES * last) ** 2 * state[10, some])
             x, y, heading = state[1:4, some]
             clear = areas.of(some).clear(x, y, heading, left[some])
-            rests[some] = few | clear
+            rests[some] = brief | clear
             arcs = arcs & rests
         if some_straight:
             rests |= straight & stops & (left <= edge)

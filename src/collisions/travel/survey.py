@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from contextlib import AbstractContextManager, nullcontext
 from itertools import pairwise
 from typing import Any
 
@@ -15,6 +16,7 @@ from ..messages.errors import InputError, MissingInputError, ShapeError
 from ..quantities.directions import Angle
 from ..quantities.reading import ArgumentReader, at_least_zero
 from ..quantities.refusals import must_be
+from ..quantities.settings import in_si, units_required
 from ..quantities.units import is_quantity
 from ..vehicle.drag import one_value
 
@@ -53,6 +55,11 @@ def _parts(
     return None
 
 
+def _as_read(value: Any) -> AbstractContextManager[None]:
+    """Within this context the entries of an array, which was read as a whole, need no unit."""
+    return nullcontext() if isinstance(value, (list, tuple)) else in_si()
+
+
 def read_points(reader: ArgumentReader, points: Any) -> list[tuple[Any, Any]] | None:
     """The positions, at least two and of a single case no two in a row alike; None if they could
     not be read.
@@ -62,12 +69,14 @@ def read_points(reader: ArgumentReader, points: Any) -> list[tuple[Any, Any]] | 
         return None
     wrong = len(reader.problems)
     places = []
-    for i, part in enumerate(parts):
-        name = f"points[{i}]"
-        if not _is_pair(part):
-            reader.refuse(must_be(name, "a pair `(x, y)`", part, code="bad_shape", kind=ShapeError))
-            continue
-        places.append(reader.pair(part, "m", name))
+    with _as_read(points):
+        for i, part in enumerate(parts):
+            name = f"points[{i}]"
+            if not _is_pair(part):
+                text = "a pair `(x, y)`"
+                reader.refuse(must_be(name, text, part, code="bad_shape", kind=ShapeError))
+                continue
+            places.append(reader.pair(part, "m", name))
     if len(reader.problems) > wrong:
         return None
     if len(places) < 2:
@@ -101,13 +110,15 @@ def read_headings(reader: ArgumentReader, headings: Any, count: int | None) -> l
     """One heading for each point; ``count`` is None if the points could not be read."""
     # Counted on through turns, headings grow beyond the size at which the reader suspects degrees;
     # it looks at the first alone.
-    reader.trusted = ("headings",)
+    reader.trusted = () if units_required.get() else ("headings",)
     parts = _parts(reader, headings, "rad", "headings", ())
     if parts is None:
         return []
-    reader.trusted = [f"headings[{i}]" for i in range(1, len(parts))]
+    if not units_required.get():
+        reader.trusted = [f"headings[{i}]" for i in range(1, len(parts))]
     wrong = len(reader.problems)
-    angles = [_read_heading(reader, part, f"headings[{i}]") for i, part in enumerate(parts)]
+    with _as_read(headings):
+        angles = [_read_heading(reader, part, f"headings[{i}]") for i, part in enumerate(parts)]
     if len(reader.problems) > wrong:
         return []
     turned = [in_radians(angle) for angle in angles]
