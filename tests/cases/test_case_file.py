@@ -1293,6 +1293,16 @@ def test_a_case_in_us_units_is_answered_in_them(tmp_path, capsys):
     assert "30.0 mph" in capsys.readouterr().out
 
 
+def test_a_page_of_sliders_is_refused_with_tyres_in_words_of_the_file():
+    """Its reader writes no code."""
+    tyres = "[eccentric.tyres_b]\nfriction = 0.7\nlock = 0.1\nwheelbase = 2.6\ntrack = 1.5\n"
+    text = ECCENTRIC.replace("restitution = 0.1", 'restitution = 0.1\nduration = "100 ms"') + tyres
+    found = answers(read_text(text.encode()))
+    with pytest.raises(CaseError, match="leave the duration and the tables of tyres out") as e:
+        found.what_if()
+    assert "impact.again" not in str(e.value)
+
+
 def test_sliders_of_what_is_uncertain_stay_where_the_solver_can_go():
     """Three deviations of a normal restitution reach below 0, where no slider may be."""
     text = ECCENTRIC.replace("restitution = 0.1", 'restitution = "0.1 +/- 0.15"')

@@ -89,6 +89,11 @@ def test_a_contact_that_comes_again_has_its_first_impact() -> None:
     assert columns[FRONT] == [run.impacts[0].b.delta_v_forward]
     assert columns["contacts[0].impact.time"] == [run.times[1]]
     assert columns["impacts[2].b.delta_v_forward"] == [run.impacts[2].b.delta_v_forward]
+    # A study by the number of the second does not offer the first in its place.
+    with pytest.warns(col.CollisionsWarning):
+        found = propagate(row(14.0), RANGE, outputs=["impacts[2].b.delta_v"], **ASKED)
+    text = " ".join(found.statements)
+    assert "is the first of these two in every case, which is not this one" in text
 
 
 @pytest.mark.slow

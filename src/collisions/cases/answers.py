@@ -103,6 +103,13 @@ class Answers:
                 else ""
             )
             raise CaseError(("what_if", text))
+        if one.inputs.tyres:
+            text = (
+                "has no page for an impact with tyres, whose force it would not work out again; "
+                "leave the duration and the tables of tyres out, and give outside_a and outside_b, "
+                "the impulses of the tyres that the report has"
+            )
+            raise CaseError(("what_if", text))
         if not found:
             known = starts(one)
             named = (

@@ -21,7 +21,7 @@ from ..impact.doubts import (
     sticking_needs,
     taken_to_stick,
 )
-from ..impact.impact import Impact, answer_of
+from ..impact.impact import Impact
 from ..impact.inputs import PLACED
 from ..impact.instant import neglected
 from ..impact.left_out import tyres_lacking
@@ -32,7 +32,7 @@ from ..impact.reconstruction import (
     how_many,
     known_in_words,
 )
-from ..impact.time_resolved_inputs import held_impulse
+from ..impact.tyres_stop import MOST_ESTIMATED, estimated
 from ..impact.vehicle_result import VehicleResult
 from ..reconstruct.momentum_tyres import lasts
 from ..reconstruct.momentum_tyres import neglected as momentum_neglect
@@ -46,8 +46,6 @@ from .numbers import percent, share
 
 # In rad/s: a smaller difference of yaw rates shows in no rest position.
 _YAW_RATE_SEEN = 0.1
-# So many times what stops a vehicle is more than its tyres have.
-_ALL = 1e6
 
 
 @finding(
@@ -198,7 +196,7 @@ def tyre_impulse(case: Case) -> Iterator[Measured]:
 @finding(
     "impulse that the whole force of tyres would give in an instant beyond half of what stops the "
     "vehicle, or its turning, as a share of the momentum that it gains",
-    above(0.05),
+    above(MOST_ESTIMATED),
     "set here: half of the share by which a simpler model may err; where it is less, nine in ten "
     "delta-V of impacts at 1.5 to 12 m/s are within 10 percent of the contact in time at fixed "
     "places",
@@ -210,18 +208,11 @@ def tyres_stop(case: ImpactCase) -> Iterator[Measured]:
     for label, who, side in case.sides:
         if label not in impact.inputs.tyres or math.isinf(side.before.mass):
             continue
-        half, whole = (
-            held_impulse(impact.inputs, answer_of(impact), label, times) for times in (1.0, _ALL)
-        )
-        x, y, turn = (more - less for more, less in zip(whole, half, strict=True))
-        beyond = math.hypot(x, y)
-        # A moment at the radius of gyration.
-        turning = abs(turn) / math.sqrt(side.before.yaw_inertia / side.before.mass)
-        part = share(max(beyond, turning), side.before.mass * side.delta_v)
+        impulse, moment, part = map(float, estimated(impact, label))
         sentence = (
             f"tyres of {who} could stop it, or its turning, within the duration of the contact: "
-            f"their whole force would give {case.text(beyond, 'impulse')} and "
-            f"{case.text(abs(turn), 'angular momentum')} more than half of what stops them, "
+            f"their whole force would give {case.text(impulse, 'impulse')} and "
+            f"{case.text(moment, 'angular momentum')} more than half of what stops them, "
             f"{percent(part)} of the momentum that the vehicle gains, and how much of it acts an "
             "impulse only estimates: follow the contact in time, by time_resolved"
         )

@@ -505,10 +505,11 @@ class Impact(_SpeedsBefore, Frozen, Summarized):
         """
         from .doubts import doubts
         from .instant import found_backwards, neglected
+        from .tyres_stop import estimates
 
         found = neglected(self)
         said = () if found is None else (found.sentence,)
-        return *said, *doubts(self), *found_backwards(self)
+        return *said, *doubts(self), *found_backwards(self), *estimates(self)
 
     @derived()
     def complete(self) -> Any:

@@ -17,6 +17,7 @@ from ..vehicle.vehicle import with_name
 from .impact import Impact
 from .left_out import tyres_lacking
 from .run import state_refusals
+from .tyres_stop import state_tyres_stop
 
 # Models that a caller chose; ``solve`` chooses one of them by a tolerance, unless a duration lets
 # it follow the contact in time.
@@ -63,6 +64,7 @@ def noted(impact: Impact, on_failure: Any = None) -> Impact:
         rest = _left_by_tyres(impact) if inputs.tyres else _LEFT_BY_PUSH if inputs.pushed else _LEFT
         who = "solve answered" if inputs.model == "solve" else f"{inputs.model} solved"
         state_of_study(f"{who} every case {rest}", WORKED_BACK)
+    state_tyres_stop(impact)
     bound = inputs.rule_value
     if (type(bound) is float and bound < math.inf) or inputs.rule != FRICTION:
         return impact

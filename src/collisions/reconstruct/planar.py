@@ -23,6 +23,7 @@ from ..impact.models import ECCENTRIC
 from ..impact.reconstruction import Reconstruction
 from ..impact.run import error_of, solve_inputs
 from ..impact.time_resolved_inputs import read_lasting
+from ..impact.tyres_stop import state_tyres_stop
 from ..kernels.contact_laws import BRACH, CRITICAL_FRACTION, FRICTION, IMPULSE_RATIO, KUDLICH_SLIBAR
 from ..kernels.status import Status
 from ..messages.errors import (
@@ -388,7 +389,9 @@ def _answer(
         origin = replace(origin, slip_if_stuck=tuple(slips))
     motions = found[2:5], found[5:8]
     before = partial(inputs_of, motions, found.restitution)
-    return finish(before, found.status, origin, on_failure, refusal, solve_case)
+    impact = finish(before, found.status, origin, on_failure, refusal, solve_case)
+    state_tyres_stop(impact)
+    return impact
 
 
 def _looked(after: Given, inputs: Inputs, regime: Regime | None, shape: tuple[int, ...]) -> _Looked:

@@ -19,6 +19,7 @@ from ..impact.inputs import Inputs
 from ..impact.instant import LEFT_BACKWARDS, looked_for
 from ..impact.reconstruction import NOT_THIS, Reconstruction, bounds_of
 from ..impact.run import error_of, warn_of_refusals
+from ..impact.tyres_stop import state_tyres_stop
 from ..kernels.contact_laws import FRICTION
 from ..kernels.status import EPS, Status
 from ..messages.errors import (
@@ -192,6 +193,7 @@ def answers_of(
         scenes.append(own)
         if not answer_counts(at):
             continue
+        state_tyres_stop(impact)
         for label, speed in zip("AB", root[:2], strict=True):
             speed = np.where(impact.refused, np.nan, speed * scene.speed_unit)
             # One that is 0 to rounding goes neither way.

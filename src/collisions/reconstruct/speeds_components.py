@@ -19,6 +19,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
+from functools import reduce
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -319,7 +320,7 @@ class ComponentScene(Scene):
             ]
             ends.append(end)
         if ends:
-            self.ended = np.isfinite(np.minimum.reduce([misfit for _, misfit, _ in ends]))
+            self.ended = np.isfinite(reduce(np.minimum, (misfit for _, misfit, _ in ends)))
         edges = [(root, np.where(self.ended, np.inf, misfit), left) for root, misfit, left in edges]
         return tried + ends, edges, sticks, backwards
 
@@ -1078,24 +1079,20 @@ def together(scenes: Sequence[ComponentScene], answered: Sequence[Any]) -> Compo
     whole = copy(scenes[at])
     whole.ways = list(scenes)
     whole.misfit = np.where(none, np.min(misfits, axis=0), least)
-    slides = np.logical_or.reduce(
-        np.broadcast_arrays(
-            *(one.undetermined & (none | (one.left_open <= ACCURACY)) for one in scenes)
-        )
+    slides = reduce(
+        np.logical_or,
+        (one.undetermined & (none | (one.left_open <= ACCURACY)) for one in scenes),
     )
     whole.undetermined = slides & none
     # A contact that slid fits beside one that stuck.
     for at, (one, here) in enumerate(zip(scenes, best, strict=True)):
         whole.ways[at] = copy(one)
         whole.ways[at].ambiguous = (one.ambiguous | (slides & one.sticks)) & here & ~none
-    whole.ambiguous = np.logical_or.reduce([one.ambiguous for one in whole.ways])
+    whole.ambiguous = reduce(np.logical_or, (one.ambiguous for one in whole.ways))
     whole.undetermined = whole.undetermined | (slides & ~whole.ambiguous)
-    whole.both_ways = np.logical_or.reduce(
-        [one.both_ways & here & ~none for one, here in zip(scenes, best, strict=True)]
-    )
-    whole.leaves_slip = np.logical_or.reduce(
-        np.broadcast_arrays(*(one.leaves_slip for one in scenes))
-    )
+    of_best = zip(scenes, best, strict=True)
+    whole.both_ways = reduce(np.logical_or, (one.both_ways & at & ~none for one, at in of_best))
+    whole.leaves_slip = reduce(np.logical_or, (one.leaves_slip for one in scenes))
     return whole
 
 

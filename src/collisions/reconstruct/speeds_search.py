@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from functools import partial
+from functools import partial, reduce
 from itertools import combinations
 from typing import Any, NamedTuple
 
@@ -327,12 +327,8 @@ class Search:
         ended: Any = np.zeros((), dtype=bool)
         if self.slid and isinstance(scene, ComponentScene):
             # Ends of families stay as they are, in the balance alone.
-            ended = np.logical_or.reduce(
-                [
-                    scene.of_way(of_starts[0]).ended,
-                    *(scene.of_way(root.way).ended & there for root, there in found),
-                ]
-            )
+            ends = (scene.of_way(root.way).ended & there for root, there in found)
+            ended = reduce(np.logical_or, ends, scene.of_way(of_starts[0]).ended)
         begins = np.stack([np.stack(np.broadcast_arrays(*start)) for start in starts], axis=1)
         more = self._balanced and len(self.known) > 2
         beside_energy = more and knows_energy and not knows_speed and self.regime != "sliding"
@@ -346,7 +342,7 @@ class Search:
         else:
             answer = speeds_with_tyres(*arguments, len(kept))
         fits = answer.settled
-        rooted = np.any([there for _, there in found] or [False], axis=0)
+        rooted = reduce(np.logical_or, (there for _, there in found), False)
         if self._balanced and not (more or knows_speed):
             # Of the contacts that stick, where it is known that this one did.
             fits = fits & answer.sticks
@@ -417,9 +413,7 @@ def _together(looks: Sequence[_Looked], given: Any, balanced: bool) -> _Looked:
         return looks[0]
     scenes = [look.scene for look in looks if isinstance(look.scene, ComponentScene)]
     answered = [
-        np.logical_or.reduce(
-            [np.zeros(look.scene.shape, dtype=bool), *(at for _, at in look.found)]
-        )
+        reduce(np.logical_or, (at for _, at in look.found), np.zeros(look.scene.shape, dtype=bool))
         for look in looks
     ]
     whole = together(scenes, answered)

@@ -13,7 +13,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from dataclasses import replace
-from functools import partial
+from functools import partial, reduce
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -156,7 +156,7 @@ def in_balance(
         for slot in range(max(len(begun.found), 1)):
             left: Any = np.ones(cases.shape or (), dtype=bool)
             if way is of_free:
-                left = ~np.logical_or.reduce([left & False, *(one.there for one in before)])
+                left = ~reduce(np.logical_or, (one.there for one in before), left & False)
             for halved in (_HALVED, 0):
                 # Whole changes may lead past a root to where there is none.
                 if not np.any(left):
@@ -264,7 +264,7 @@ def _as_one(
         misfit = by_way(np.argmax(theres, axis=0), [one.misfit for one in scene.ways])
         scene.misfit = np.where(answered, misfit, scene.misfit)
         scene.undetermined = scene.undetermined & ~answered
-        in_doubt = np.logical_or.reduce([one.ambiguous for one in scene.ways])
+        in_doubt = reduce(np.logical_or, (one.ambiguous for one in scene.ways))
         scene.ambiguous = in_doubt | (scene.ambiguous & ~answered)
     frictions = [one.of.inputs_of(one.root).rule_value for one in kept]
     frictions += [one.inputs.rule_value for one, _ in [*doubts, (first, None)]]

@@ -150,8 +150,8 @@ def order_of(
         )
     said = [
         f"{told(scene, k, rules)}; a case in which another comes in its place has no answer to it, "
-        f"and counts as impossible where it is evidence; 'contacts[{rules[k]}].impact...' is that "
-        "of these two in every case"
+        f"and counts as impossible where it is evidence; 'contacts[{rules[k]}].impact...' is the "
+        f"first of these two in every case{', which is not this one' * (rules[k] in rules[:k])}"
         for k in sorted(numbers)
     ]
     return Order(rules, said)
