@@ -1,11 +1,13 @@
 """Probabilities and shares that are printed never say what is certain where it is not."""
 
 import numpy as np
+import math
+
 import pytest
 
 import collisions as col
 from collisions import reconstruct
-from collisions.messages.shares import chance, in_percent
+from collisions.messages.shares import chance, in_percent, percent_beyond
 from collisions.uncertainty import Normal, propagate
 
 
@@ -78,3 +80,11 @@ def test_few_cases_without_an_answer_are_not_0_percent():
 
     with pytest.warns(col.OutOfRangeWarning, match=r"\(0\.00\d+ %\) had no answer"):
         propagate(model, {"x": Normal(0.0, 1.0)}, samples=65_536, seed=1)
+
+
+@pytest.mark.parametrize(
+    ("share", "text"),
+    [(0.13, "13"), (0.104, "10.4"), (0.1004, "10.04"), (0.11, "11"), (math.inf, "inf")],
+)
+def test_a_share_beyond_its_limit_does_not_read_like_it(share, text):
+    assert percent_beyond(share, 0.1) == text

@@ -444,7 +444,7 @@ def test_refusals_beside_the_mean(method):
         a, b = col.Vehicle(mass=1500.0, vx=speed), col.Vehicle(mass=1200.0, vx=10.0)
         return {"delta_v": col.linear_central(a, b, 0.2, on_failure="nan").b.delta_v}
 
-    with pytest.warns(col.OutOfRangeWarning, match="of them without an answer") as caught:
+    with pytest.warns(col.OutOfRangeWarning, match="cases without an answer among") as caught:
         found = propagate(model, {"speed": Normal(11.0, 1.0)}, method=method)
     assert [record.message.code for record in caught] == ["not_local"]
     assert caught[0].message.fields["failed"] == found.failed
@@ -473,7 +473,7 @@ def test_no_derivative_at_the_mean(method):
 def test_a_model_with_no_answer_but_at_the_mean(method):
     """Said to differ everywhere, not divided by nothing."""
     with pytest.warns(
-        col.OutOfRangeWarning, match="y everywhere and knows nothing of the 4096 of them"
+        col.OutOfRangeWarning, match="y everywhere and knows nothing of the 4096 cases"
     ):
         found = propagate(
             lambda x: {"y": x if len(x) < 4096 else np.full(len(x), np.nan)},

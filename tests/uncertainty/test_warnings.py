@@ -192,7 +192,7 @@ def test_refused_cases_that_a_model_answers_itself_are_stated_and_not_raised():
     found, _ = quiet(lambda: propagate(looped, inputs, samples=256, seed=1))
     assert found.failed == count
     (said,) = (one for one in found.statements if "refused by a solver, as separating" in one)
-    assert said.startswith(f"{count} warnings from calls that were not given all cases as arrays")
+    assert said.startswith(f"{count} warnings that do not say of which of 256 cases")
 
 
 def test_one_output_by_itself_says_how_many_cases_it_leaves_out():
@@ -248,8 +248,7 @@ def test_a_warning_that_is_not_of_cases_is_raised_once_and_gets_no_share():
     (note,) = found.notes
     assert note.fields == {"cases": None, "share": None, "times": 1}
     assert [str(one.message) for one in caught] == [
-        "1 warning from calls that were not given all cases as arrays; in how many of 1024 cases "
-        "it is so is not known: this is in degrees"
+        "1 warning that does not say of which of 1024 cases, which may be all: this is in degrees"
     ]
 
 
@@ -297,7 +296,7 @@ def test_a_loop_over_single_cases_is_given_no_share(threads):
     assert 0 < sum(below) < 256
     note = of_code(found, "negative_speed")
     assert note.fields == {"cases": None, "share": None, "times": sum(below)}
-    assert note.statement.startswith(f"{sum(below)} warnings from calls that were not given all")
+    assert note.statement.startswith(f"{sum(below)} warnings that do not say of which")
     assert not any("256 of 256" in text for text in found.statements)
     assert "negative_speed" in {one.message.code for one in caught}
 
@@ -341,8 +340,8 @@ def test_a_model_of_both_kinds_says_what_is_sure():
     note = of_code(found, "negative_speed")
     assert note.fields == {"cases": None, "share": None, "times": sum(alone)}
     assert note.statement.startswith(
-        f"at least {sum(below)} of 512 cases, and {sum(alone)} warnings from calls that were not "
-        "given all cases as arrays, so the share is not known: speed_a is below 0"
+        f"at least {sum(below)} of 512 cases, and {sum(alone)} warnings that do not say of "
+        "which, so the share is not known: speed_a is below 0"
     )
 
 
@@ -387,7 +386,7 @@ def test_threads_that_a_model_starts_are_counted_in_a_copy_of_its_context_alone(
     assert {"may_slide", "refused_cases"} <= {one.code for one in found.notes}
     note = of_code(found, "may_slide")
     assert note.fields == {"cases": None, "share": None, "times": 2}
-    assert note.statement.startswith("2 warnings from calls that were not given all cases")
+    assert note.statement.startswith("2 warnings that do not say of which of 256 cases")
     assert "may_slide" in raised
     assert any("it slid" in text for text in found.statements)
 
@@ -604,8 +603,8 @@ def test_fits_and_posteriors_give_a_loop_no_share():
     below = int(np.count_nonzero(found["speed"].values < 20.0))
     assert counted[-1] == (512, below)
     said = (
-        f"{below} warnings from calls that were not given all cases as arrays; in how many of 512 "
-        "cases it is so is not known: slower than 20 m/s"
+        f"{below} warnings that do not say of which of 512 cases, which may be all: slower than "
+        "20 m/s"
     )
     assert said in found.statements
     more, _ = quiet(lambda: found.with_result("again", each, speed=found["speed"]))

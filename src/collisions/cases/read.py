@@ -101,7 +101,7 @@ _KEY = re.compile(
     re.MULTILINE,
 )
 _MOST_PARTS = 100
-_PAIR = '["1.2 m", "-0.4 m"]'
+_PAIR, _SLOPES = '["1.2 m", "-0.4 m"]', '["2 %", "0 %"]'
 _LARGEST_FILE = 1_000_000  # bytes
 # Characters of a text that stands for a number, a range with its percentage at most, and of a key.
 _LONGEST_TEXT = 200
@@ -756,7 +756,7 @@ class Reader:
             self.refuse(
                 key,
                 f"takes two numbers in brackets, got {as_in_file(value)}; write for example "
-                f"{_PAIR}",
+                f"{_SLOPES if key.endswith('slope') else _PAIR}",
             )
         elif isinstance(value, dict):
             return self.function(key, value)

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..kernels.contact_laws import FRICTION
+from ..messages.shares import percent_beyond
 from ..reference import INTER_VEHICLE_FRICTION, RECORDER_ACCURACY
 from .impact import Impact
 from .reconstruction import NOT_THIS, Reconstruction, from_components, known_in_words
@@ -158,13 +159,14 @@ def apart_in_words(impact: Impact, shares: Any) -> str:
     names = [name for name in origin.known if not name.startswith("recorder")]
     known = " and ".join(f"the {words}" for words in known_in_words(names))
     up_to = "" if np.ndim(shares) == 0 else "up to "
+    much = percent_beyond(most, RECORDER_ACCURACY.high)
     # What is given of friction moves a contact that slid.
     slid = impact.inputs.rule not in (None, *origin.found) and np.any(
         np.not_equal(impact.regime, "sticking")
     )
     rule = f"the {impact.inputs.rule}, ".replace("_", " ") if slid else ""
     return (
-        f"{known} differ from this answer by {up_to}{100.0 * most:.0f} percent of the impulse, "
+        f"{known} differ from this answer by {up_to}{much} percent of the impulse, "
         f"where recorders are accurate to {100.0 * RECORDER_ACCURACY.high:.0f} percent: {rule}one "
         "of them, a course or the geometry is wrong"
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+_MOST_DIGITS = 10
 _LEAST = 1e-300  # where floats lose their digits, and from where on 0 may be no more than that
 
 
@@ -18,6 +19,14 @@ def in_percent(part: float, whole: float) -> str:
     text = f"{100.0 * part / whole:.3g}"
     rounded_up = part < whole and float(text) >= 100.0
     return f"more than {_nines(3, 100)} %" if rounded_up else f"{text} %"
+
+
+def percent_beyond(share: float, limit: float) -> str:
+    """A share that is beyond a limit, in percent with the digits that show it."""
+    texts = (
+        [f"{100.0 * one:.{digits}f}" for one in (share, limit)] for digits in range(_MOST_DIGITS)
+    )
+    return next((text for text, of_limit in texts if text != of_limit), f"{100.0 * share:.17g}")
 
 
 def _nines(figures: int, of: int = 1) -> str:

@@ -315,10 +315,12 @@ def _but_for_numbers(sentence: str) -> str:
 
 def _of_uncounted(cases: int, times: int, total: int) -> str:
     """Of how many cases something is said where that is not known."""
-    many = f"{times} warning{'s' * (times > 1)} from calls that were not given all cases as arrays"
+    many = (
+        f"{times} warning{'s' * (times > 1)} that {'do' if times > 1 else 'does'} not say of which"
+    )
     if cases:
         return f"at least {cases} of {total} cases, and {many}, so the share is not known: "
-    return f"{many}; in how many of {total} cases it is so is not known: "
+    return f"{many} of {total} cases, which may be all: "
 
 
 def warn_of(notes: Iterable[Note]) -> None:

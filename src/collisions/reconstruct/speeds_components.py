@@ -27,6 +27,7 @@ import numpy as np
 from ..impact.doubts import MAY_SLIDE, NEARLY_COLLINEAR
 from ..kernels.contact_laws import FRICTION
 from ..messages.errors import IllConditionedWarning
+from ..messages.shares import percent_beyond
 from ..messages.warning import warn_of_cases
 from ..quantities.directions import Angle
 from ..reference import RECORDER_ACCURACY
@@ -907,12 +908,13 @@ class ComponentScene(Scene):
         up_to = "" if cases.shape is None else "up to "
         if np.any(differ):
             worst = float(np.max(np.where(answered, misfit, 0.0), initial=0.0))
+            much = percent_beyond(worst, ACCURACY)
             why = (
                 f"the stated accuracy of recorders is {ACCURACY:.0%}: one of them, a course or "
                 "the geometry is wrong"
             )
             text = (
-                f"{who} differ from their best common answer by {up_to}{worst:.0%} of the impulse, "
+                f"{who} differ from their best common answer by {up_to}{much}% of the impulse, "
                 f"where {why}"
             )
             sentence = f"{who} differ from their best common answer by more than they may, as {why}"
@@ -925,12 +927,13 @@ class ComponentScene(Scene):
         ended = answered & self.ended & (self.misfit > ACCURACY) & np.logical_not(differ)
         if np.any(ended):
             worst = float(np.max(np.where(ended, self.misfit, 0.0)))
+            much = percent_beyond(worst, ACCURACY)
             friction = (
                 f"`friction={float(self.bound):.4g}`" if cases.shape is None else "this friction"
             )
             wrong = "the friction, one of them or the geometry is wrong"
             text = (
-                f"a contact that slides with {friction} differs from {who} by {up_to}{worst:.0%} "
+                f"a contact that slides with {friction} differs from {who} by {up_to}{much}% "
                 f"of the impulse, where the stated accuracy of recorders is {ACCURACY:.0%}: {wrong}"
             )
             sentence = (

@@ -824,7 +824,10 @@ def _not_local(method: str, runs: Sequence[Run], failed: int) -> Iterator[Note]:
         )
         reasons.append(f"differs from cases drawn from the inputs: {listed}")
     if failed:
-        reasons.append(f"knows nothing of the {failed} of them without an answer")
+        reasons.append(
+            f"knows nothing of the {failed} cases without an answer among those drawn from the "
+            "inputs"
+        )
     if reasons:
         yield Note(
             OutOfRangeWarning,
