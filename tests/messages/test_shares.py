@@ -1,8 +1,8 @@
 """Probabilities and shares that are printed never say what is certain where it is not."""
 
-import numpy as np
 import math
 
+import numpy as np
 import pytest
 
 import collisions as col
