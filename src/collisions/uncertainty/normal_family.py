@@ -430,11 +430,16 @@ def _read(
             kind=ShapeError,
         )
     bounds = {
-        f"truncate[{i}]": None if str(bound) == infinity else bound
+        f"truncate[{i}]": None if _is_written(bound, infinity) else bound
         for i, (bound, infinity) in enumerate(zip(truncate, ("-inf", "inf"), strict=True))
     }
     (one, other, *ends), unit = read_alike(needed, bounds)
     return one, other, None if ends == [None, None] else tuple(ends), unit
+
+
+def _is_written(bound: Any, text: str) -> bool:
+    """Whether a text or a number reads so; of anything else the reader says what it is."""
+    return isinstance(bound, (str, float, np.generic, np.ndarray)) and str(bound) == text
 
 
 def _check_positive(name: str, value: float) -> None:
