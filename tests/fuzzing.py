@@ -49,8 +49,8 @@ from collisions.messages.warning import Note
 from collisions.quantities.attributes import Quantities
 from collisions.quantities.units import Texts
 from collisions.reconstruct.momentum_solution import Sensitivity
-from collisions.scene.follow import Notice
 from collisions.scene.levels import Level
+from collisions.scene.notices import Notice
 from collisions.scene.required import Cost, Required
 from collisions.scene.run import Moved, Rests, Track
 from collisions.uncertainty.distribution import GivenUnit, WithoutUnit

@@ -235,7 +235,7 @@ def test_what_limits_a_case_is_that_of_the_case_alone(rules: slice) -> None:
         whole = crash(seed)
         scene = Scene(movers=whole.movers, contacts=whole.contacts[rules])
         run = scene.run()
-        found = run._followed
+        found = run._followed.told
         for i in np.flatnonzero(run.status == "ok").tolist():
             codes = [one.code for one in scene.case(i).run().findings]
             assert found.undescribed[i] == ("touch_without_contact" in codes)

@@ -9,7 +9,7 @@ import pytest
 
 import collisions as col
 from collisions.scene import Contact, Mover, Scene
-from collisions.scene.follow import _closing_at, _through_crossings
+from collisions.scene.placing import closing_at, through_crossings
 from collisions.scene.touching import (
     Meeting,
     Pair,
@@ -251,7 +251,7 @@ def test_contact_points_close_by_the_turning_of_either_car(spins):
     contact = Contact("A", "B", restitution=0.1, friction=0.5, at="touch")
     (of_a, of_b) = (one.velocity_at(point) for one in (a, b))
     closing = sum((p - q) * n for p, q, n in zip(of_a, of_b, normal, strict=True))
-    assert _closing_at(contact, states, normal, point)[0] == pytest.approx(closing, rel=1e-12)
+    assert closing_at(contact, states, normal, point)[0] == pytest.approx(closing, rel=1e-12)
 
 
 def along_x(met: Meeting, some):
@@ -288,7 +288,7 @@ def test_outlines_whose_sides_are_in_line_have_no_plane_of_crossings(aside, in_l
     _, area, crossings = overlap_of(met.one, met.other)
     assert area[0] == pytest.approx(0.2 * (2.0 - aside))
     face = np.array([[1.0], [0.0]])
-    normal = _through_crossings(met, crossings, face)[:, 0]
+    normal = through_crossings(met, crossings, face)[:, 0]
     # The crossings are (0.8, 1) and (1, aside - 1).
     away = np.array([0.2, aside - 2.0])
     through = np.array([-away[1], away[0]]) / np.hypot(*away)

@@ -276,7 +276,7 @@ def _of_one_vehicle(run: Run, name: str, asked: Sequence[OfMark]) -> Any:
                 new = one.x * line.end(one.what, 0) + one.y * line.end(one.what, 1)
                 better = np.isnan(before) if one.what == "begin" else np.isfinite(new)
             found[at, cases] = np.where(better, new, before)
-    found[:, (followed.failed != "") | (course.failed != "")] = np.nan
+    found[:, (followed.told.failed != "") | (course.failed != "")] = np.nan
     return found
 
 

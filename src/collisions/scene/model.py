@@ -184,7 +184,7 @@ def _rules_of(scene: Scene, pair: Collection[str]) -> list[int]:
 
 def _warn_of_absent(run: Run, numbers: Iterable[int]) -> None:
     """Say in how many cases of a study an impact of a number does not come."""
-    answered = run._followed.failed == ""
+    answered = run._followed.told.failed == ""
     for number in numbers:
         missing = absent(run, number) & answered
         if many := int(np.count_nonzero(missing)):

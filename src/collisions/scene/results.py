@@ -334,13 +334,13 @@ def result_of(run: Run, path: str, order: Sequence[int] | None = None) -> Any:
     values = np.full(followed.count, np.nan)
     if not asked.name:
         came = np.flatnonzero(numbers >= 0)
-        values[came] = followed.times[numbers[came], came]
-    for hit in followed.hits if asked.name else ():
+        values[came] = followed.came.times[numbers[came], came]
+    for hit in followed.came.hits if asked.name else ():
         some = hit.number == numbers[hit.which]
         if some.any():
             part = np.broadcast_to(_value(hit.impact, asked, path), len(hit.which))
             values[hit.which[some]] = part[some]
-    values[followed.failed != ""] = np.nan
+    values[followed.told.failed != ""] = np.nan
     return values
 
 
@@ -367,13 +367,13 @@ def curves_of(
             curves = _shown(run.impacts[int(numbers[0])], *recorder)
         else:
             curves = np.full((2, len(times), followed.count), np.nan)
-            for hit in followed.hits:
+            for hit in followed.came.hits:
                 some = hit.number == numbers[hit.which]
                 if some.any():
                     own = _shown(hit.impact, *recorder).reshape(2, len(times), -1)
                     own = np.broadcast_to(own, (2, len(times), len(hit.which)))
                     curves[:, :, hit.which[some]] = own[:, :, some]
-            curves[:, :, followed.failed != ""] = np.nan
+            curves[:, :, followed.told.failed != ""] = np.nan
         for path, sample, at in zip(paths, samples, places, strict=True):
             value = curves[PARTS.index(sample.part), at]
             found[path] = float(value) if followed.single else value
@@ -392,7 +392,7 @@ def _shown(impact: Impact, label: str, times: Any, forward: float, left: float, 
 def _numbers(run: Run, asked: OfImpact, path: str, order: Sequence[int] | None) -> Any:
     """Which impact of each case is asked for, by its number in order of time; -1 for none."""
     followed = run._followed
-    rules, number = followed.rules, asked.number
+    rules, number = followed.came.rules, asked.number
     if asked.contact:
         its = rules == number
         return np.where(its.any(axis=0), its.argmax(axis=0), -1)
@@ -417,7 +417,7 @@ def _numbers(run: Run, asked: OfImpact, path: str, order: Sequence[int] | None) 
 
 def absent(run: Run, number: int) -> Any:
     """Where there is no impact of a number, of the cases of a run."""
-    rules = run._followed.rules
+    rules = run._followed.came.rules
     if number >= len(rules):
         return np.ones(run._followed.count, dtype=bool)
     return rules[number] < 0
@@ -427,7 +427,7 @@ def another(run: Run, number: int, order: Sequence[int]) -> Any:
     """Where the impact of a number is another than in an order: of another contact, or another
     impact of the same.
     """
-    rules = run._followed.rules
+    rules = run._followed.came.rules
     if number >= min(len(rules), len(order)):
         return np.zeros(run._followed.count, dtype=bool)
     rule = order[number]
@@ -484,7 +484,7 @@ def _not_so_many(run: Run, path: str) -> InputError:
 def usual_order(run: Run) -> tuple[int, ...]:
     """The contacts that the impacts of a run are of, in order; of a batch those of most cases."""
     followed = run._followed
-    rules = followed.rules[: followed.most, followed.failed == ""]
+    rules = followed.came.rules[: followed.came.most, followed.told.failed == ""]
     found: list[int] = []
     like = np.ones(rules.shape[1], dtype=bool)
     for row in rules:
@@ -552,12 +552,12 @@ def _statuses(run: Run, number: int, order: Sequence[int]) -> list[str]:
     """The status of the impact of a number in each case; "" where it has none, or another."""
     followed = run._followed
     labels = np.full(followed.count, "", dtype=object)
-    for hit in followed.hits:
+    for hit in followed.came.hits:
         statuses = np.ravel(np.broadcast_to(hit.impact.status, len(hit.which))).tolist()
         for case, at, status in zip(hit.which.tolist(), hit.number.tolist(), statuses, strict=True):
             if at == number:
                 labels[case] = Status(status).label
-    labels[another(run, number, order) | (followed.failed != "")] = ""
+    labels[another(run, number, order) | (followed.told.failed != "")] = ""
     return labels.tolist()
 
 
@@ -567,7 +567,7 @@ def warn_of_another(run: Run, numbers: Iterable[int], order: Sequence[int], as_i
     """
     followed, parts = run._followed, {}
     for number in numbers:
-        cases = another(run, number, order) & (followed.failed == "")
+        cases = another(run, number, order) & (followed.told.failed == "")
         if np.any(cases):
             contact = run.scene.contacts[order[number]]
             said = (

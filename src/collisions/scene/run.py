@@ -27,10 +27,12 @@ from ..quantities.tables import Cells, Part, Summarized, Summary, all_numbers, c
 from ..quantities.units import Input, Texts, texts_of
 from ..vehicle.drag import one_value
 from ..vehicle.vehicle import NAMES, Vehicle, vehicle_of
-from .follow import Followed, Hit, Notice
+from .came import Hit
+from .follow import Followed
 from .ledger import on_drag, on_slope, on_tyres
 from .marks import WHEELS
 from .motion import STATE, Ground, body_at, no_rest, why_no_rest
+from .notices import Notice
 from .scene import Scene
 
 # Moments of a track between two contacts.
@@ -130,7 +132,7 @@ class Run(Frozen, Summarized):
         with np.errstate(all="ignore"):
             found = Followed(scene.movers, scene.contacts, ground, scene.order, to_rest=to_rest)
         vars(self).update(scene=scene, tolerance=tolerance, _followed=found)
-        _warn_of(found, found.failed != "")
+        _warn_of(found, found.told.failed != "")
         _warn_of_notices(found)
 
     scene: Scene
@@ -147,7 +149,7 @@ class Run(Frozen, Summarized):
         """
         found = self._followed
         if found.single:
-            return tuple(hit.impact for hit in found.hits)
+            return tuple(hit.impact for hit in found.came.hits)
         self._refuse_orders()
         return tuple(self._whole(number) for number in range(self._most))
 
@@ -155,7 +157,7 @@ class Run(Frozen, Summarized):
     def pairs(self) -> tuple[tuple[str, str], ...]:
         """The names of the two vehicles of each impact."""
         self._refuse_orders()
-        longest = self._followed.longest
+        longest = self._followed.came.longest
         contacts = self.scene.contacts
         return tuple((contacts[rule].a, contacts[rule].b) for rule in longest)
 
@@ -163,7 +165,7 @@ class Run(Frozen, Summarized):
     def rules(self) -> tuple[int, ...]:
         """The contact of the scene that each impact is, by its place in the list."""
         self._refuse_orders()
-        return tuple(self._followed.longest)
+        return tuple(self._followed.came.longest)
 
     @derived("s")
     def times(self) -> tuple[Any, ...]:
@@ -176,7 +178,7 @@ class Run(Frozen, Summarized):
         found = self._followed
         if found.single:
             return "ok"
-        codes = np.where(found.failed == "", "ok", found.failed).astype(str)
+        codes = np.where(found.told.failed == "", "ok", found.told.failed).astype(str)
         return codes.reshape(self._shape)
 
     @derived()
@@ -189,8 +191,8 @@ class Run(Frozen, Summarized):
     def _findings_in(self, units: str | None) -> tuple[Notice, ...]:
         """The findings with their numbers in a system of units, for None that of the vehicles."""
         found = self._followed
-        notices = found.notices_in(units)
-        for hit in found.hits if found.single else ():
+        notices = found.told.notices_in(units)
+        for hit in found.came.hits if found.single else ():
             contact, time = self.scene.contacts[hit.rule], float(hit.time[0])
             if hit.impact.status == Status.ENERGY_GAIN:
                 text = (
@@ -213,7 +215,7 @@ class Run(Frozen, Summarized):
         """
         found = self._followed
         if found.single:
-            return tuple(bool(hit.deepest[0]) for hit in found.hits)
+            return tuple(bool(hit.deepest[0]) for hit in found.came.hits)
         return tuple(self._deepest(number) for number in range(self._most))
 
     @derived()
@@ -435,9 +437,9 @@ class Run(Frozen, Summarized):
         with np.errstate(all="ignore"):
             for course in self._followed.courses.values():
                 _ = course.rests
-        answered = self._followed.failed == ""
+        answered = self._followed.told.failed == ""
         self._followed.gather()
-        _warn_of(self._followed, answered & (self._followed.failed != ""))
+        _warn_of(self._followed, answered & (self._followed.told.failed != ""))
 
     @property
     def _shape(self) -> tuple[int, ...]:
@@ -445,7 +447,7 @@ class Run(Frozen, Summarized):
 
     @property
     def _most(self) -> int:
-        return self._followed.most
+        return self._followed.came.most
 
     def _deepest(self, number: int) -> Any:
         """Whether one impact of every case of a batch acts at the deepest."""
@@ -469,7 +471,7 @@ class Run(Frozen, Summarized):
         found = self._followed
         if found.single:
             return
-        if not found.same_order:
+        if not found.came.same_order:
             raise InputError(
                 "the contacts come in another order in some cases of the batch, so that an "
                 "impact is not of the same vehicles in all; run.case(i).impacts has those of "
@@ -480,12 +482,12 @@ class Run(Frozen, Summarized):
             )
 
     def _time(self, number: int) -> Any:
-        found = self._followed
+        found, times = self._followed, self._followed.came.times
         if found.single:
-            return float(found.times[number, 0])
-        many = found.times[number] if number < len(found.times) else np.full(found.count, np.nan)
-        times = np.where(found.failed == "", many, np.nan)
-        return read_only(times.reshape(self._shape))
+            return float(times[number, 0])
+        many = times[number] if number < len(times) else np.full(found.count, np.nan)
+        good = np.where(found.told.failed == "", many, np.nan)
+        return read_only(good.reshape(self._shape))
 
     def _whole(self, number: int) -> Impact:
         """The impacts of one number over all cases, NaN where there is none."""
@@ -495,12 +497,13 @@ class Run(Frozen, Summarized):
 
     def _hits(self, number: int) -> list[tuple[Hit, Any]]:
         """What has impacts of this number, and of which of its cases they are."""
-        found = [(hit, hit.number == number) for hit in self._followed.hits]
+        found = [(hit, hit.number == number) for hit in self._followed.came.hits]
         return [(hit, some) for hit, some in found if some.any()]
 
     def _ends(self) -> Any:
         found = self._followed
-        last = np.fmax.reduce([*found.times, *found.lasts.values()], axis=0, initial=0.0)
+        times = [*found.came.times, *found.lasting.until.values()]
+        last = np.fmax.reduce(times, axis=0, initial=0.0)
         found.to_rest(found.courses)
         rests = np.array([course.rests for course in found.courses.values()])
         return np.maximum(last, np.where(np.isfinite(rests), rests, 0.0).max(axis=0))
@@ -521,7 +524,7 @@ class Run(Frozen, Summarized):
     def _unanswered(self, name: str) -> Any:
         """NaN for each case without an answer, also where only this motion has none, else 0."""
         found = self._followed
-        good = (found.failed == "") & (found.courses[name].failed == "")
+        good = (found.told.failed == "") & (found.courses[name].failed == "")
         return np.where(good, 0.0, np.nan)
 
     def _rest(self, name: str) -> Vehicle:
@@ -550,7 +553,7 @@ class Run(Frozen, Summarized):
         ends = self._ends()
         rows = [np.zeros(found.count)]
         for number in range(self._most):
-            came = found.times[number]
+            came = found.came.times[number]
             rows.append(np.where(np.isnan(came), ends, came))
         return np.array([*rows, ends])
 
@@ -729,7 +732,7 @@ class Run(Frozen, Summarized):
         notes = [f"{one.sentence}." for one in self._findings_in(numbers.name)]
         title = f"Scene of {', '.join(movers)}"
         if not self._followed.single:
-            wrong = int((self._followed.failed != "").sum())
+            wrong = int((self._followed.told.failed != "").sum())
             notes.append(f"{self._followed.count} cases, {wrong} of them without an answer.")
         return Summary(title, [*parts, all_numbers(self._rows())], notes)
 
@@ -824,7 +827,7 @@ def _warn_of(found: Followed, wrong: Any) -> None:
     """Say how many cases of a batch have no answer, and why."""
     if found.single or not wrong.any():
         return
-    codes, counts = np.unique(found.failed[wrong].astype(str), return_counts=True)
+    codes, counts = np.unique(found.told.failed[wrong].astype(str), return_counts=True)
     many = dict(zip(codes.tolist(), counts.tolist(), strict=True))
     listed = ", ".join(f"{count} {code}" for code, count in many.items())
     warn_of_cases(
@@ -834,7 +837,7 @@ def _warn_of(found: Followed, wrong: Any) -> None:
             code="refused_cases",
             counts=many,
         ),
-        {f"without an answer, as {code}": wrong & (found.failed == code) for code in many},
+        {f"without an answer, as {code}": wrong & (found.told.failed == code) for code in many},
     )
 
 
@@ -919,15 +922,15 @@ def _warn_of_notices(found: Followed) -> None:
     if found.single:
         return
     for cases, made, text in (
-        (found.driven, _of_driven, _DRIVEN),
-        (found.dragless, _of_dragless, _DRAGLESS),
-        (found.mixed, _of_mixed, _MIXED),
-        (found.partly, _of_partly, _PARTLY),
-        (found.undescribed, _of_undescribed, _UNDESCRIBED),
-        (found.passed_over, _of_passed_over, _PASSED_OVER),
-        (found.at_deepest, _of_deepest, _AT_DEEPEST),
+        (found.told.driven, _of_driven, _DRIVEN),
+        (found.told.dragless, _of_dragless, _DRAGLESS),
+        (found.told.mixed, _of_mixed, _MIXED),
+        (found.told.partly, _of_partly, _PARTLY),
+        (found.told.undescribed, _of_undescribed, _UNDESCRIBED),
+        (found.told.passed_over, _of_passed_over, _PASSED_OVER),
+        (found.came.at_deepest, _of_deepest, _AT_DEEPEST),
     ):
-        where = cases & (found.failed == "")
+        where = cases & (found.told.failed == "")
         if count := int(np.count_nonzero(where)):
             said = f"in {count} of {found.count} cases of the scene {text}"
             warn_of_cases(made(said), {text: where})
