@@ -239,7 +239,7 @@ def test_what_is_no_name_is_refused_by_results_that_are_read_by_name(name):
         (lambda: crash().to_columns(columns=np.array("x")), "unknown_name"),
         (
             lambda: col.reconstruct.recorded_pulse(
-                [0.0, 0.1, 0.2], [0.0, 1.0, 2.0], polarity="ISO 8855"
+                [0.0, 0.1, 0.2], [0.0, 1.0, 1.0], polarity="ISO 8855"
             ).inputs(np.zeros(2)),
             "bad_option",
         ),
