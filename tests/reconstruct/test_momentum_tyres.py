@@ -350,7 +350,7 @@ def test_without_the_tyres_of_one_vehicle_it_says_what_these_would_change():
     assert sentence.startswith(
         "found without the tyres of vehicle B: if its wheels slid for 0.13 s with a drag of 0.7"
     )
-    said = re.search(r"the speed of B would be ([0-9.]+) m/s more; give `tyres_b=`", sentence)
+    said = re.search(r"the speed of B would be ([0-9.]+) m/s more; give tyres_b=", sentence)
     assert float(said[1]) == pytest.approx(both.speed_b - one.speed_b, rel=0.06)
     assert both.statements == ()
     limits = {"tyre_impulse": 0.0, "instant": 0.0}

@@ -14,6 +14,7 @@ from ..kernels.contact_laws import BRACH, FRICTION, LAWS, RULES
 from ..kernels.elementwise import UNIT_INTERVAL, select
 from ..kernels.status import Passed
 from ..messages.errors import InputError, NoSolutionError, Status
+from ..messages.marked import plain
 from ..messages.warning import quietly
 from ..quantities.attribute_stubs import ImpactQuantities
 from ..quantities.attributes import (
@@ -508,8 +509,9 @@ class Impact(_SpeedsBefore, Frozen, Summarized):
         from .tyres_stop import estimates
 
         found = neglected(self)
-        said = () if found is None else (found.sentence,)
-        return *said, *doubts(self), *found_backwards(self), *estimates(self)
+        said: tuple[str, ...] = () if found is None else (found.sentence,)
+        said = *said, *doubts(self), *found_backwards(self), *estimates(self)
+        return tuple(map(plain, said))
 
     @derived()
     def complete(self) -> Any:

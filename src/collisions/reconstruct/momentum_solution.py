@@ -14,6 +14,7 @@ import numpy as np
 from ..impact.doubts import BACKWARDS, NEARLY_COLLINEAR, from_one_line, in_cases
 from ..kernels.status import Status
 from ..messages.errors import MissingInputError
+from ..messages.marked import plain
 from ..quantities.attribute_stubs import MomentumSolutionQuantities
 from ..quantities.attributes import Shown, derived, equal
 from ..quantities.tables import (
@@ -204,14 +205,15 @@ class MomentumSolution(Shown):
         """The statements with their numbers in a system of units, by default that of the inputs."""
         say = Sentences(self._texts(), units)
         found = neglected(self, float(USUAL_DURATION), 0.7, lambda value, kind: say(value, kind, 2))
-        said = (*self._doubts(say), *self._pushed())
-        said = said if found is None else (found.sentence, *said)
-        if not self.tyres:
-            return said
-        other = other_velocity(self)
-        if other is not None:
-            return *said, other.sentence(self, say)
-        return (*said, self._not_looked_for()) if self._may_have_others() else said
+        said = [] if found is None else [found.sentence]
+        said += [*self._doubts(say), *self._pushed()]
+        if self.tyres:
+            other = other_velocity(self)
+            if other is not None:
+                said.append(other.sentence(self, say))
+            elif self._may_have_others():
+                said.append(self._not_looked_for())
+        return tuple(map(plain, said))
 
     def _doubts(self, say: Sentences) -> Iterator[str]:
         """That a speed is backwards along its course, that small errors move the answer far, and
