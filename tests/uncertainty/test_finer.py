@@ -298,6 +298,23 @@ def test_a_difference_that_is_one_number_is_not_taken_for_that_of_another_regime
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("gap", [(0.45, 0.5), (0.4, 0.5)])
+def test_cases_that_neither_model_answers_do_not_lie_beyond_those_asked(gap):
+    """There is nothing to correct in them; the models differ by one number."""
+
+    def model(x, y, more=0.0):
+        none = (y / 2.0 > gap[0]) & (y / 2.0 < gap[1])
+        return {"z": np.where(none, np.nan, x + y + more)}
+
+    with pytest.warns(col.OutOfRangeWarning, match="had no answer"):
+        found = propagate(model, INPUTS, finer=lambda x, y: model(x, y, 0.1), seed=1)
+    assert found.calls["finer"] == 512
+    assert found.failed == pytest.approx(8192 * (gap[1] - gap[0]), abs=2)
+    with pytest.warns(col.OutOfRangeWarning, match="had no answer"):
+        alone = propagate(lambda x, y: model(x, y, 0.1), INPUTS, seed=1)
+    assert found["z"].mean == pytest.approx(alone["z"].mean, abs=1e-9)
+
+
 def test_more_cases_beyond_those_asked_than_were_asked_are_refused():
     """The first 64 of 4,096 cases are of one regime, a tenth of all others of another."""
 

@@ -204,7 +204,9 @@ def crush_share(stiffness_a: Input, stiffness_b: Input) -> Value:
     Raises
     ------
     InputError
-        A stiffness that is not positive, or both infinite.
+        A stiffness that is not positive.
+    NoSolutionError
+        Both are infinite: nothing can yield.
 
     Notes
     -----
@@ -271,7 +273,9 @@ def crush_delta_v(
     Raises
     ------
     InputError
-        An argument that cannot be used; both masses infinite.
+        An argument that cannot be used.
+    NoSolutionError
+        Both masses are infinite: nothing can yield.
 
     Notes
     -----

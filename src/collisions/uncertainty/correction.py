@@ -283,7 +283,9 @@ def corrected(
         correction = _regressed(model, columns[:count], first, exact)
         least = _check_scatter(model, correction, exact)
         correction = correction._replace(farthest=min(correction.farthest, least))
-        beyond = correction.beyond(columns)
+        # Of a case without an answer there is nothing to correct.
+        answered = np.any([~np.isnan(column) for column in answers.values()], axis=0)
+        beyond = correction.beyond(columns) & answered
         beyond[:count] = False
         _check_beyond(beyond, count)
         surrogate, scatter = CorrectedModel(model, correction, names), correction.scatter
