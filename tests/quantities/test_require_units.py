@@ -327,4 +327,9 @@ def test_every_heading_and_point_of_a_run_out_needs_a_unit():
             registry.Quantity([0.0, 20.0, 30.0], "deg"),
             **wheels,
         )
+        # Counted on through turns: no other unit is suspected of an array that has one.
+        turns = registry.Quantity([0.0, 2.2, 4.4, 7.0], "rad")
+        with pytest.warns(col.OutOfRangeWarning) as said:
+            travel.path([*points, ("12 m", "0 m")], turns, **wheels)
+        assert {one.message.code for one in said} == {"wide_segment", "fast_yaw"}
     assert of_arrays.speed == pytest.approx(of_lists.speed, rel=1e-12)

@@ -847,6 +847,17 @@ def test_delta_v_after_the_end_of_the_event_is_said(speed, ended, had):
     assert cut.delta_v * 3.6 == pytest.approx(had, abs=0.5)
 
 
+def test_the_size_at_the_end_of_the_event_is_that_of_its_time():
+    """And not that of 30 ms later, up to which the maximum is sought; nor does a turn go unsaid."""
+    speed = np.interp(LONG, [0.0, 0.03, 0.06, 0.12, 0.4], [0.0, 5.0, 5.7, 40.0, 40.0])
+    with pytest.warns(col.OutOfRangeWarning, match=r"ended at 0\.05 s, with 5\.467 km/h"):
+        recorded_pulse(LONG, -speed / 3.6, polarity="49 CFR 563")
+    ahead = 30.0 * np.clip(LONG / 0.1, 0.0, 1.0) * np.clip((0.34 - LONG) / 0.1, 0.0, 1.0)
+    aside = 30.5 * np.clip((LONG - 0.24) / 0.1, 0.0, 1.0)
+    with pytest.warns(col.OutOfRangeWarning, match=r"to 30\.5 km/h, in another direction, at"):
+        recorded_pulse(LONG, -ahead / 3.6, aside / 3.6, polarity="49 CFR 563")
+
+
 def test_what_comes_within_the_stated_error_after_the_end_is_not_said():
     """A step of rounding, and little braking: the range holds both."""
     for later in (1.0, 2.0):

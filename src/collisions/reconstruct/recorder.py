@@ -525,10 +525,12 @@ def _went_on(times: Any, forward: Any, left: Any, say: Callable[[float], str] = 
     apart = math.hypot(*(part[at] - part[until] for part in parts))
     if times[at] <= times[until] or apart <= _error(size[at]):
         return ""
+    turned = abs(size[at] - size[until]) <= _error(size[at])
+    where = ", in another direction," if turned else ""
     return (
-        f"by 49 CFR 563 the event had ended at {end:.3g} s, with {say(size[until])}, and delta-V "
-        f"went on to {say(size[at])} at {times[at]:.3g} s: braking or another impact may be in it; "
-        "if it is, leave out the samples after the end"
+        f"by 49 CFR 563 the event had ended at {end:.3g} s, with {say(size[np.argmax(quiet)])}, "
+        f"and delta-V went on to {say(size[at])}{where} at {times[at]:.3g} s: braking or another "
+        "impact may be in it; if it is, leave out the samples after the end"
     )
 
 

@@ -140,15 +140,8 @@ class Areas(NamedTuple):
         count = before.shape[1]
         found = np.ones(count)
         edges = self._edges()
-        # Most steps are away from all edges: a wheel goes no further than by twice the greater of
-        # the speeds at both ends.
-        lever = np.hypot(self.ahead_of, self.left_of).max(axis=0)
-        speeds = [
-            self.length * np.hypot(rows[4], rows[5]) + lever * np.abs(spin * rows[6])
-            for rows in (before, after)
-        ]
-        reach = 2.0 * (after[0] - before[0]) * np.maximum(*speeds) + _NEAR * self.length
-        near = self._to_edges(*before[1:4]) <= reach
+        # Most steps are away from all edges.
+        near = self._to_edges(*before[1:4]) <= self._reach(before, after, spin)
         if not near.any():
             return found
         some = np.flatnonzero(near)
@@ -201,6 +194,22 @@ class Areas(NamedTuple):
         on = np.hypot(end_x - px, end_y - py) <= _NEAR * own.length
         found[some[hit]] = np.where(on, 1.0, np.clip(share, 1e-9, 1.0 - 1e-12))
         return found
+
+    def _reach(self, before: Any, after: Any, spin: Any) -> Any:
+        """How far a wheel comes at most within a step from where it begins [m].
+
+        By the polynomial of ``between``: its parts for the velocities at both ends are no more than
+        0.2 of what these are over the time of the step, and those for the accelerations 0.02.
+        """
+        took = after[0] - before[0]
+        lever = np.hypot(self.ahead_of, self.left_of).max(axis=0)
+        parts = [
+            np.abs(after[1 + at] - before[1 + at])
+            + 0.2 * took * factor * (np.abs(before[4 + at]) + np.abs(after[4 + at]))
+            + 0.02 * took * took * factor * (np.abs(before[7 + at]) + np.abs(after[10 + at]))
+            for at, factor in ((0, 1.0), (1, 1.0), (2, np.abs(spin)))
+        ]
+        return self.length * (np.hypot(*parts[:2]) + _NEAR) + lever * parts[2]
 
     def _edges(self) -> Any:
         """Start and end of all edges, of (2, edges, 2)."""

@@ -114,7 +114,8 @@ def read_headings(reader: ArgumentReader, headings: Any, count: int | None) -> l
     parts = _parts(reader, headings, "rad", "headings", ())
     if parts is None:
         return []
-    if not units_required.get():
+    # An array was read as a whole; of a list each has a unit where one is required.
+    if not (units_required.get() and isinstance(headings, (list, tuple))):
         reader.trusted = [f"headings[{i}]" for i in range(1, len(parts))]
     wrong = len(reader.problems)
     with _as_read(headings):
