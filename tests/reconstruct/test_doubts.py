@@ -85,7 +85,7 @@ def test_how_far_recorders_differ_is_in_the_record_and_worked_out_again():
     assert any(said in one for one in again.statements)
     for value in (0.05, None):
         record["results"]["reconstruction"]["misfit"] = value
-        with pytest.raises(col.InputError, match="of the impulse, and solving it again"):
+        with pytest.raises(col.InputError, match="the answer, and solving it again"):
             col.report(col.Impact.from_dict(record))
     many = reconstruct.speeds(
         A, B, **MET | known | {"delta_v_left_b": np.array([-29.5, -38.4, -99.0]) / 3.6}

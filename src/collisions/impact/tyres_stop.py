@@ -4,7 +4,6 @@ the mean force over the duration only estimates.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from functools import reduce
 from typing import Any, NamedTuple
@@ -66,7 +65,7 @@ def estimates(impact: Impact) -> Iterator[str]:
         return
     shares = most_estimated(impact)
     most = float(np.max(shares, initial=0.0))
-    much = "as much as" if math.isinf(most) else f"{100.0 * most:.0f} percent of"
+    much = "as much as" if most >= 1.0 else f"{100.0 * most:.0f} percent of"
     sentence = (
         "the tyres could stop a vehicle, or its turning, within the duration of the contact: up to "
         f"{much} the momentum that it gains is only estimated; follow the contact in time, by "

@@ -144,10 +144,12 @@ def contradicted_origin(impact: Impact) -> Iterator[str]:
         )
     one, other = (math.nan if each.misfit is None else each.misfit for each in (origin, again))
     if not np.isclose(one, other, rtol=_SAME_CONDITION, atol=_SAME_VELOCITY, equal_nan=True):
-        yield (
-            "it says that what was known differs from the answer by "
-            f"{origin.misfit} of the impulse, and solving it again finds {again.misfit}"
+        says = (
+            "does not say how far what was known is from the answer"
+            if origin.misfit is None
+            else f"says that what was known is {origin.misfit:.6g} of the impulse from the answer"
         )
+        yield f"it {says}, and solving it again finds {again.misfit}"
     pairs = (origin.slip_if_stuck or (), again.slip_if_stuck or ())
     scale = _SAME_VELOCITY * abs(impact.closing_speed)
     if len(pairs[0]) != len(pairs[1]) or not all(

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from html import escape
 from itertools import repeat
@@ -18,10 +18,9 @@ from typing import Any, NamedTuple
 from ..engine.javascript import javascript
 from ..impact.impact import Impact, build
 from ..impact.models import BY_NAME, CANDIDATES, MODELS
-from ..impact.reconstruction import KNOWN
+from ..impact.reconstruction import KNOWN, Reconstruction
 from ..kernels.contact_laws import RULES
 from ..kernels.elementwise import FINITE, NOT_NEGATIVE, POSITIVE, restitution_domain
-from ..messages import marked
 from ..messages.errors import InputError, Status
 from ..messages.hints import hinted, parted
 from ..plot.canvas import who
@@ -110,7 +109,9 @@ class Slider(NamedTuple):
 
 
 class Evidence(NamedTuple):
-    """What was observed of one result, in SI; both ends are the same where no range was given."""
+    """What was observed of one result, in SI; both ends are the same where no range was given, and
+    the path is empty where the page does not work it out.
+    """
 
     words: str
     kind: str
@@ -138,8 +139,9 @@ def what_if(
     arctangent are the browser's). It loads nothing from outside, and works by keyboard and with
     screen readers.
     Inputs without a slider stand on it as given. For an impact that a reverse solver found, it
-    computes forward from the motions found, and what it was found from stands beside what follows
-    from the sliders.
+    computes forward from the motions found, and what it was found from stands, as it was given,
+    beside what follows from the sliders; EES, speeds of maximum crush, and readings of a recorder
+    away from the centre of mass or along turning axes, stand alone.
 
     Parameters
     ----------
@@ -221,7 +223,7 @@ def what_if(
 
     def page(*values: Any) -> dict[str, Any]:
         given = dict(zip((slider.name for slider in sliders), values, strict=True))
-        return results(impact, given, [one.path for one in evidence])
+        return results(impact, given, [one.path for one in evidence if one.path])
 
     printed = javascript(page, len(sliders))
     return Document(_written(impact, sliders, evidence, outlines, printed, system), "html")
@@ -419,15 +421,21 @@ def _evidence(impact: Impact, observed: Any) -> list[Evidence]:
         words = f"{_RESULTS[result]} of {side.upper()}" if result else _RESULTS[path]
         found.append(Evidence(words, kind, path, *numbers))
     reader.close()
-    origin = impact.reconstruction
-    known = () if origin is None else (KNOWN[name] for name in origin.known if name in KNOWN)
-    for what, kind, path, _ in known:
+    of_origin = () if impact.reconstruction is None else _found_from(impact.reconstruction)
+    return [*found, *(one for one in of_origin if not one.path or one.path not in (observed or {}))]
+
+
+def _found_from(origin: Reconstruction) -> Iterator[Evidence]:
+    """What an impact was found from, as it was given, from which the answer may differ."""
+    for name, value in origin.given.items():
+        # Courses before are inputs of the page.
+        if name not in KNOWN or name.startswith(("course_", "recorder_")):
+            continue
+        what, kind, path, _ = KNOWN[name]
         # What is stated of the contact and not an output of it stays as it was.
         stated = path.startswith("reconstruction.")
-        value = attrgetter(path)(impact) if path and not stated else None
-        if isinstance(value, float) and math.isfinite(value) and path not in (observed or {}):
-            found.append(Evidence(what, kind, path, value, value))
-    return found
+        if isinstance(value, float) and math.isfinite(value) and not stated:
+            yield Evidence(what, kind, path, value, value)
 
 
 def _refuse_mixed(reader: ArgumentReader, name: str, ends: Any) -> None:
@@ -577,13 +585,16 @@ def _written(
         # The script fills in what the model gives now.
         now = f' id="seen.{one.path}" data-path="{one.path}" data-kind="{one.kind}"{bounds}'
         given = system.span(one.low, one.high, one.kind)
-        seen.append(html_row(one.words, given, "", of_cells=("", now)))
+        if one.path:
+            seen.append(html_row(one.words, given, "", of_cells=("", now)))
+        else:
+            seen.append(html_row(one.words, given, "not worked out here"))
     not_moved = [
         html_row(what, *texts, of_cells=repeat(" colspan=2" if len(texts) == 1 else ""))
         for what, texts in _fixed(impact, sliders, system)
     ]
     text = _PAGE.read_text(encoding="utf-8")
-    statements = (plain(marked.plain(as_sentence(one))) for one in impact.statements)
+    statements = (plain(as_sentence(one)) for one in impact.statements)
     stated = (*impact._bounds(system), *statements)
     said = "".join(f"<p>{escape(typeset(one))}</p>" for one in stated)
     heading = (
