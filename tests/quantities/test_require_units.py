@@ -8,7 +8,7 @@ import pint
 import pytest
 
 import collisions as col
-from collisions import plot, reconstruct, reference, travel, uncertainty
+from collisions import plot, reconstruct, reference, scene, travel, uncertainty
 from collisions.reporting import options, replay
 
 WITH_UNITS = {
@@ -333,3 +333,68 @@ def test_every_heading_and_point_of_a_run_out_needs_a_unit():
             travel.path([*points, ("12 m", "0 m")], turns, **wheels)
         assert {one.message.code for one in said} == {"wide_segment", "fast_yaw"}
     assert of_arrays.speed == pytest.approx(of_lists.speed, rel=1e-12)
+
+
+def row(tyres, car, **units):
+    """Two cars in line, with numbers that have units or not."""
+    mover = {"outline": units["outline"], "tyres": tyres}
+    return scene.Scene(
+        movers={
+            "A": scene.Mover(car.replace(vx=units["vx"], x=0.0), **mover),
+            "B": scene.Mover(car.replace(x=units["x"]), **mover),
+        },
+        contacts=[
+            scene.Contact(
+                "A", "B", at="touch", restitution=0.1, friction=0.5, duration=units["duration"]
+            )
+        ],
+    )
+
+
+CAR = {"mass": 1500.0, "yaw_inertia": 2500.0, "y": 0.0, "heading": 0.0}
+SCENES = {
+    "bare": row(
+        travel.Tyres(0.7, 0.3, 2.6, 1.5), col.Vehicle(**CAR, x=0.0),
+        vx=15.0, x=20.0, outline=(4.5, 1.8), duration=0.1,
+    ),
+    "with units": row(
+        travel.Tyres(0.7, 0.3, "2.6 m", "1.5 m"), col.Vehicle(**CAR, x=0.0),
+        vx="15 m/s", x="20 m", outline=("4.5 m", "1.8 m"), duration="100 ms",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("one", SCENES.values(), ids=SCENES)
+def test_numbers_that_a_scene_has_need_no_unit_again(one):
+    """However it was made: run, changed, asked for its levels, or for a curve of a recorder."""
+    curve = "contacts[0].impact.A.recorded(40 ms, 0.4 m, 0.1 m).forward"
+
+    def asked():
+        found = one.required({"B.rest.x": "1 m"})
+        return (
+            found.level.name,
+            found.to_dict()["levels"][0]["differences"],
+            found.level.as_model([], ["B.rest.x"])(),
+            one.as_model([], [curve])(),
+            one.replace({"A.vx": "16 m/s", "A.heading": "1 deg"}).run().times,
+            one.replace({"A.tyres.lock": np.array([0.2, 0.3])}).run().case(0).times,
+            one.movers["A"].replace(drag=0.5, tyres=None).drag,
+            one.movers["A"].tyres.replace(lock=0.2).track,
+            one.contacts[0].replace(restitution=0.2).duration,
+        )
+
+    free = asked()
+    with col.options(require_units=True):
+        assert asked() == free
+        for bare in (
+            lambda: one.replace({"A.vx": 16.0}),
+            lambda: one.replace({"contacts[0].duration": 0.2}),
+            lambda: one.replace({"A.heading": 5.0}),
+            lambda: one.required({"B.rest.x": 1.0}),
+            lambda: one.as_model([], [curve.replace("0.4 m", "0.4")]),
+            lambda: one.movers["A"].replace(outline=(4.0, 1.7)),
+            lambda: one.movers["A"].tyres.replace(track=1.2),
+            lambda: one.contacts[0].replace(duration=0.2),
+        ):
+            with pytest.raises(col.UnitsError, match="has no unit, and options"):
+                bare()

@@ -306,9 +306,9 @@ def eccentric(
         stop it, as it moves then along its force, with a quarter of the vehicle's mass: once where
         the vehicle moves after as before, up to twice where the contact sets it in motion. Where
         tyres could stop a vehicle, or its turning, within the contact, their impulse is rough, and
-        ``diagnose`` says so (``tyres_stop``). This costs two calls; the motion during the contact,
-        which ``time_resolved`` has too, is left out. A vehicle without has no tyre forces;
-        ``left_out`` and ``diagnose`` say what they could do, a wall has none.
+        statements and ``diagnose`` say so (``tyres_stop``). This costs two calls; the motion during
+        the contact, which ``time_resolved`` has too, is left out. A vehicle without has no tyre
+        forces; ``left_out`` and ``diagnose`` say what they could do, a wall has none.
     incomplete, on_failure, threads, progress
         As for ``linear_central``.
 

@@ -28,6 +28,7 @@ _NEARLY_PLASTIC = (
 )
 _IMPULSE_TOL = 1e-6  # of the impulse: far above rounding, far below what separates two origins
 _MOTION_ROUNDING = 64.0  # eps of the motions
+_NEARLY_ALL = 0.999  # of the critical impulse ratio
 # of the closing speed: a motion after that may be the rounding of a slip before which nothing
 # bounds
 _LOST_MOTION = 1e-6
@@ -379,15 +380,16 @@ class End:
         (r, s') under "kudlich-slibar"; P_t N_s = f T_s P_n, with P_n from the closing speed, leaves
         a quadratic in the ratio. Where it has no root, its turning point is ``nearest`` to one.
         """
+        share = self.bound
         y_n, y_t = self.stopping
         if self.law == BRACH:
             # With e = -1 the wanted change along the normal is 0, and what remains is the slip.
             only_slip = self._contact(e=-1.0)
             y_n, y_t = 0.0 - only_slip.no_slip_normal, 0.0 - only_slip.no_slip_tangential
-            # Of a slip that is rounding one root would be its reciprocal.
-            none = abs(self.slip) <= self.noise
+            # Of a slip that is rounding one root would be its reciprocal. Where nearly all of it
+            # was stopped, the slip before is known from what is left alone.
+            none = (abs(self.slip) <= self.noise) & (share < _NEARLY_ALL)
             y_n, y_t = np.where(none, 0.0, y_n), np.where(none, 0.0, y_t)
-        share = self.bound
         square = y_n * self.k_nt
         linear = (
             y_n * self.k_nn

@@ -15,7 +15,7 @@ from ..quantities.attributes import Shown, read_only, texts_given
 from ..quantities.directions import direction
 from ..quantities.reading import ArgumentReader, at_least_zero
 from ..quantities.refusals import must_be, one_of, yes_or_no
-from ..quantities.settings import Default
+from ..quantities.settings import Default, in_si
 from ..quantities.units import Input, Pair, Texts, Value, shown, texts_of
 from ..vehicle.drag import one_value, read_duration
 from ..vehicle.tyres import Tyres, not_tyres
@@ -229,7 +229,8 @@ class Contact(Shown):
         Contact
         """
         kept = {name: self.as_given(name) for name in NAMES}
-        return Contact(**{**kept, **changes})
+        with in_si(but=changes):
+            return Contact(**{**kept, **changes})
 
     def _by_model(self, model: str) -> Contact:
         """The contact of "solve" as one of the models that it takes has it: in time, or an impulse,

@@ -14,6 +14,7 @@ import numpy as np
 
 from ..kernels.contact_laws import BRACH, FRICTION
 from ..quantities.attributes import same_fields
+from ..quantities.settings import in_si
 from ..vehicle.drag import GRAVITY, USUAL_DURATION, gravity_on
 from .contact import IN_TIME, Contact
 from .model import as_function
@@ -118,7 +119,8 @@ class Level:
         return as_function(self.given, names, outputs, tolerance, self._of, argument)
 
     def _of(self, scene: Scene) -> Scene:
-        return _made(scene, self.contacts, self.motion, self.drags)
+        with in_si():
+            return _made(scene, self.contacts, self.motion, self.drags)
 
     def __eq__(self, other: object) -> bool:
         return same_fields(self, other) if isinstance(other, Level) else NotImplemented

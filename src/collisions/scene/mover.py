@@ -14,6 +14,7 @@ from ..messages.hints import hinted
 from ..quantities.attributes import Shown, read_only, returns, texts_given
 from ..quantities.reading import ArgumentReader
 from ..quantities.refusals import one_of
+from ..quantities.settings import in_si
 from ..quantities.tables import Cells, Part, Summary, all_numbers
 from ..quantities.units import Input, Texts, Value, texts_of
 from ..vehicle.drag import read_drag
@@ -128,7 +129,8 @@ class Mover(Shown):
         Mover
         """
         kept = {name: self.as_given(name) for name in NAMES}
-        return Mover(**{**kept, **changes})
+        with in_si(but=changes):
+            return Mover(**{**kept, **changes})
 
     def as_given(self, name: str) -> Any:
         """The text that an argument was given as, or its value.

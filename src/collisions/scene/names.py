@@ -17,6 +17,7 @@ from ..messages.hints import nearest
 from ..quantities.directions import direction
 from ..quantities.reading import ArgumentReader, at_least_zero
 from ..quantities.refusals import must_be
+from ..quantities.settings import in_si, unit_required
 from ..quantities.units import rendered
 from ..vehicle.tyres import LOCKS, as_given
 from ..vehicle.vehicle import UNITS as OF_VEHICLE
@@ -177,12 +178,18 @@ def replaced(scene: Scene, changes: Any) -> Scene:
             spread[one], by[one] = value, path
     arguments = arguments_of(scene)
     grouped: dict[tuple[str, ...], dict[str, Any]] = {}
+    reader = ArgumentReader()
     for path, value in spread.items():
         owner, part = owner_of(scene, path)
         grouped.setdefault(owner, {})[part] = value
-    for owner, parts in grouped.items():
-        _change(scene, arguments, owner, parts)
-    return Scene(**arguments)
+        if unit_required(path) and (unit := _unit(owner, part)):
+            reader.number(value, unit, path)
+    reader.close()
+    # What stays as it is are the scene's own numbers.
+    with in_si():
+        for owner, parts in grouped.items():
+            _change(scene, arguments, owner, parts)
+        return Scene(**arguments)
 
 
 def changed_by(scene: Scene, path: str) -> tuple[str, ...]:
@@ -377,27 +384,28 @@ def case_of(scene: Scene, index: Any, of: str = "scene") -> Scene:
     def take(value: Any) -> Any:
         return np.broadcast_to(value, shape or ())[place].item()
 
-    arguments = arguments_of(scene)
-    arguments["movers"] = {
-        name: mover.replace(
-            vehicle=part_of(mover.vehicle, take),
-            tyres=part_of(mover.tyres, take),
-            drag=part_of(mover.as_given("drag"), take),
-        )
-        for name, mover in scene.movers.items()
-    }
-    arguments["contacts"] = [
-        contact.replace(
-            **{
-                part: part_of(contact.as_given(part), take)
-                for part in (*OF_CONTACT, "tyres_after")
-                if part != "at" or not contact.touches
-            }
-        )
-        for contact in scene.contacts
-    ]
-    arguments["surfaces"] = [
-        (corners, part_of(friction, take)) for corners, friction in arguments["surfaces"]
-    ]
-    arguments["slope"] = part_of(arguments["slope"], take)
-    return Scene(**arguments)
+    with in_si():
+        arguments = arguments_of(scene)
+        arguments["movers"] = {
+            name: mover.replace(
+                vehicle=part_of(mover.vehicle, take),
+                tyres=part_of(mover.tyres, take),
+                drag=part_of(mover.as_given("drag"), take),
+            )
+            for name, mover in scene.movers.items()
+        }
+        arguments["contacts"] = [
+            contact.replace(
+                **{
+                    part: part_of(contact.as_given(part), take)
+                    for part in (*OF_CONTACT, "tyres_after")
+                    if part != "at" or not contact.touches
+                }
+            )
+            for contact in scene.contacts
+        ]
+        arguments["surfaces"] = [
+            (corners, part_of(friction, take)) for corners, friction in arguments["surfaces"]
+        ]
+        arguments["slope"] = part_of(arguments["slope"], take)
+        return Scene(**arguments)

@@ -16,6 +16,7 @@ from ..kernels.elementwise import POSITIVE_FINITE
 from ..messages.errors import CollisionsError, InputError, NoSolutionError
 from ..messages.warning import Note, Noted, Said, noted_in_call, notes_of_samples, quietly, warn_of
 from ..quantities.reading import ArgumentReader
+from ..quantities.settings import in_si
 from ..quantities.strict_json import strict
 from ..quantities.tables import Cells, Part, Summarized, Summary, as_sentence, given_texts
 from ..quantities.units import shown
@@ -189,6 +190,20 @@ def required(
             code="bad_option",
             argument="draws",
         )
+    # From here on all numbers are the package's own.
+    with in_si():
+        return _compared(scene, within, units, joint, draws, tolerance)
+
+
+def _compared(
+    scene: Scene,
+    within: Mapping[str, float],
+    units: Mapping[str, str],
+    joint: Joint | None,
+    draws: int,
+    tolerance: float,
+) -> Required:
+    """The levels at the draws of the unknowns, against the finest of them."""
     levels, notes = levels_of(scene, tolerance)
     values: dict[str, Any] = {}
     count = 1

@@ -31,6 +31,7 @@ from ..messages.warning import quietly, warn_of_cases
 from ..quantities.attributes import attributes, unit_of
 from ..quantities.formatting import KIND_OF
 from ..quantities.reading import ArgumentReader
+from ..quantities.settings import in_si
 from ..quantities.tables import cells
 from ..vehicle.vehicle import UNITS as OF_VEHICLE
 from .curves import PARTS, Sample, check_lasts, no_curve, sample_of
@@ -385,7 +386,8 @@ def _shown(impact: Impact, label: str, times: Any, forward: float, left: float, 
     if impact.pulse is None:
         raise no_curve(f"{path}: its contact is not followed in time", path, "outputs")
     vehicle = impact.a if label == "a" else impact.b
-    with quietly([]):  # numbers without a unit were warned of where the path was read
+    # Numbers without a unit were warned of, or refused, where the path was read.
+    with quietly([]), in_si():
         return np.array(vehicle.recorded(times, forward=forward, left=left))
 
 

@@ -168,7 +168,8 @@ class Tyres(Shown):
         if unknown := changes.keys() - set(NAMES):
             raise no_argument("Tyres.replace", NAMES, unknown, _HINTS)
         kept = {name: as_given(self, name) for name in NAMES if name not in changes}
-        return Tyres(**kept, **changes)
+        with in_si(but=changes):
+            return Tyres(**kept, **changes)
 
     @property
     def given(self) -> Texts:
