@@ -398,3 +398,63 @@ def test_numbers_that_a_scene_has_need_no_unit_again(one):
         ):
             with pytest.raises(col.UnitsError, match="has no unit, and options"):
                 bare()
+
+
+WHEELS = travel.Tyres(0.7, 0.3, "2.6 m", "1.5 m")
+HIT = {"normal": "3 deg", "point": ("0 m", "0.1 m"), "friction": 0.1}
+ONE = col.Vehicle(
+    mass="1500 kg", vx="15 m/s", x="-2 m", y="0 m", heading="0 deg", yaw_inertia="2500 kg*m**2"
+)
+TWO = col.Vehicle(
+    mass="1200 kg", vy="8 m/s", x="2 m", y="0.2 m", heading="80 deg", yaw_inertia="2000 kg*m**2"
+)
+END = col.eccentric(ONE, TWO, 0.1, **HIT)
+AFTER = {
+    "course_a": "0 deg", "course_b": "90 deg", "course_a_after": "20 deg",
+    "course_b_after": "60 deg", "speed_a_after": "30 km/h", "speed_b_after": "35 km/h",
+}  # fmt: skip
+FOUND = {
+    "central": lambda: reconstruct.central(
+        "1100 kg", "950 kg", va="80 km/h", vb=0.0, vb_after="60 km/h"
+    ).summary(),
+    "central with drags, a batch": lambda: reconstruct.central(
+        "1100 kg", "950 kg", va=pint.Quantity([80.0, 90.0], "km/h"), vb=0.0, vb_after="60 km/h",
+        duration="100 ms", drag_b=0.7,
+    ).case(0).summary(),
+    "planar with the tyres of one": lambda: reconstruct.planar(
+        END.a.after, END.b.after, **HIT, restitution=0.1, duration="100 ms", tyres_a=WHEELS
+    ).summary(),
+    "speeds": lambda: reconstruct.speeds(
+        ONE, TWO, course_a="0 deg", course_b="80 deg", restitution=0.1, **HIT, speed_a="15 m/s",
+        delta_v_a="5 m/s",
+    )[0].summary(),
+    "momentum": lambda: reconstruct.momentum("1200 kg", "1400 kg", **AFTER).summary(),
+    "momentum with tyres": lambda: reconstruct.momentum(
+        "1200 kg", "1400 kg", **AFTER, duration="100 ms", tyres_a=WHEELS, heading_a="0 deg",
+        yaw_rate_a_after="10 deg/s",
+    ).summary(),
+    "a function of the closing speed": lambda: reconstruct.inline_closing_speed(
+        "1500 kg", "1500 kg", lambda v: reference.restitution(v, outside="refuse"),
+        delta_v_a="5 km/h",
+    ),
+    "left_out": lambda: col.left_out(END).summary(),
+    "report of a fit with a run": lambda: col.report(
+        [
+            reconstruct.fit(
+                SCENES["with units"], {"A.vx": "15 m/s"}, {"contacts[0].impact.B.delta_v":
+                ("7 m/s", "0.5 m/s")},
+            ),
+            SCENES["with units"].run(),
+        ],
+        figures=False, form="markdown",
+    ).partition("## Record")[0],
+}  # fmt: skip
+
+
+@pytest.mark.filterwarnings("ignore::collisions.CollisionsWarning")
+@pytest.mark.parametrize("found", FOUND.values(), ids=FOUND)
+def test_the_packages_own_numbers_need_no_unit(found):
+    """Every number of these has its unit, and the answer is the same with the option as without."""
+    free = found()
+    with col.options(require_units=True):
+        assert str(found()) == str(free)

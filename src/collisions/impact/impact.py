@@ -508,9 +508,10 @@ class Impact(_SpeedsBefore, Frozen, Summarized):
         from .instant import found_backwards, neglected
         from .tyres_stop import estimates
 
-        found = neglected(self)
-        said: tuple[str, ...] = () if found is None else (found.sentence,)
-        said = *said, *doubts(self), *found_backwards(self), *estimates(self)
+        with in_si():
+            found = neglected(self)
+            said: tuple[str, ...] = () if found is None else (found.sentence,)
+            said = *said, *doubts(self), *found_backwards(self), *estimates(self)
         return tuple(map(plain, said))
 
     @derived()

@@ -32,6 +32,7 @@ from ..messages.warning import quietly, state_of_study, warn_of_cases
 from ..quantities.attributes import read_only
 from ..quantities.precision import precision
 from ..quantities.reading import ArgumentReader, amount, broadcast
+from ..quantities.settings import in_si
 from ..quantities.units import Texts
 from ..vehicle.drag import GRAVITY, read_drag, read_duration
 from ..vehicle.tyres import lacking
@@ -356,7 +357,7 @@ def finish(
 
     def refusal_at(index: tuple[int, ...]) -> CollisionsError:
         try:
-            with quietly():
+            with quietly(), in_si():
                 solve_case(index)
         except CollisionsError as problem:
             return problem
@@ -442,11 +443,12 @@ def run_forward(
     """
     found = np.equal(status, Status.OK)
     velocity = origin.contact_velocity
-    inputs = _with_velocity(inputs_of(found), velocity)
-    impact = solved(inputs, on_failure=on_failure)
-    if np.any(found & impact.refused):
-        velocity = velocity and origin_where_answered(origin, impact.status).contact_velocity
-        inputs = _with_velocity(inputs_of(found & np.logical_not(impact.refused)), velocity)
+    with in_si():
+        inputs = _with_velocity(inputs_of(found), velocity)
+        impact = solved(inputs, on_failure=on_failure)
+        if np.any(found & impact.refused):
+            velocity = velocity and origin_where_answered(origin, impact.status).contact_velocity
+            inputs = _with_velocity(inputs_of(found & np.logical_not(impact.refused)), velocity)
     if velocity and np.shape(velocity[0]) != np.shape(impact.status):
         # A number of a vehicle on which nothing depends has more cases.
         shape = np.shape(impact.status)

@@ -17,6 +17,7 @@ from ..messages.errors import MissingInputError
 from ..messages.marked import plain
 from ..quantities.attribute_stubs import MomentumSolutionQuantities
 from ..quantities.attributes import Shown, derived, equal
+from ..quantities.settings import in_si
 from ..quantities.tables import (
     Cells,
     Part,
@@ -203,7 +204,10 @@ class MomentumSolution(Shown):
 
     def _stated_in(self, units: str | None) -> tuple[str, ...]:
         """The statements with their numbers in a system of units, by default that of the inputs."""
-        say = Sentences(self._texts(), units)
+        with in_si():
+            return self._stated_by(Sentences(self._texts(), units))
+
+    def _stated_by(self, say: Sentences) -> tuple[str, ...]:
         found = neglected(self, float(USUAL_DURATION), 0.7, lambda value, kind: say(value, kind, 2))
         said = [] if found is None else [found.sentence]
         said += [*self._doubts(say), *self._pushed()]

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..messages.errors import CollisionsError, InputError
 from ..messages.warning import of_some, quietly
+from ..quantities.settings import in_si
 from ..quantities.units import shown
 from .common import Cases
 from .grid_roots import Narrowing, roots_on_grid
@@ -75,7 +76,7 @@ class RestitutionOf:
         )
 
     def _of_array(self, closing: Any) -> Any:
-        with quietly([]):
+        with quietly([]), in_si():
             return np.array(self.function(closing), dtype=np.float64)
 
     def _usable(self, closing: Any, e: Any) -> Any:
@@ -109,7 +110,7 @@ class RestitutionOf:
         if not closing > 0.0:
             return math.nan
         try:
-            with quietly([]):
+            with quietly([]), in_si():
                 given = self.function(closing)
             e = math.nan if isinstance(given, (str, bytes, bool)) else float(given)
         except Exception as error:
@@ -147,7 +148,7 @@ class RestitutionOf:
 
     def _warn_of(self, closing: Any, cases: Any) -> None:
         """Ask the function at the closing speeds of these cases."""
-        with of_some(cases):
+        with of_some(cases), in_si():
             try:
                 self.function(closing)
             except Warning:

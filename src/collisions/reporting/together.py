@@ -18,6 +18,7 @@ from ..impact.impact import Impact
 from ..messages.errors import CollisionsError, InputError
 from ..plot.canvas import INK, Axes, Units
 from ..quantities.formatting import UnitSystem
+from ..quantities.settings import Default
 from ..quantities.units import shown
 from ..quantities.user_text import plain
 from ..reconstruct import Fit, Posterior
@@ -164,7 +165,7 @@ class Together(NamedTuple):
         """The outlines of the two vehicles of an impact, of those that have one."""
         movers = self.run.scene.movers
         return {
-            label: [(float(ahead), float(left)) for ahead, left in outline]
+            label: [(Default(ahead), Default(left)) for ahead, left in outline]
             for label, name in zip("ab", self.run.pairs[number], strict=True)
             if (outline := movers[name].outline) is not None
         }
