@@ -1,6 +1,8 @@
 """``options(require_units=True)``: bare numbers are refused, by name, and only there and then."""
 
 import asyncio
+import copy
+import pickle
 import threading
 
 import numpy as np
@@ -332,6 +334,8 @@ def test_every_heading_and_point_of_a_run_out_needs_a_unit():
         with pytest.warns(col.OutOfRangeWarning) as said:
             travel.path([*points, ("12 m", "0 m")], turns, **wheels)
         assert {one.message.code for one in said} == {"wide_segment", "fast_yaw"}
+    beyond_a_turn = registry.Quantity([400.0, 420.0, 430.0], "deg")
+    assert travel.path(points, beyond_a_turn, **wheels).speed > 0.0
     assert of_arrays.speed == pytest.approx(of_lists.speed, rel=1e-12)
 
 
@@ -381,6 +385,9 @@ def test_numbers_that_a_scene_has_need_no_unit_again(one):
             one.movers["A"].replace(drag=0.5, tyres=None).drag,
             one.movers["A"].tyres.replace(lock=0.2).track,
             one.contacts[0].replace(restitution=0.2).duration,
+            one.replace({"contacts[0].normal": (1.0, 0.0)}).contacts[0].as_given("normal"),
+            copy.deepcopy(one).run().times,
+            pickle.loads(pickle.dumps(one.run())).times,
         )
 
     free = asked()

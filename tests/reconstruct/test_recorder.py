@@ -856,6 +856,9 @@ def test_the_size_at_the_end_of_the_event_is_that_of_its_time():
     aside = 30.5 * np.clip((LONG - 0.24) / 0.1, 0.0, 1.0)
     with pytest.warns(col.OutOfRangeWarning, match=r"to 30\.5 km/h, in another direction, at"):
         recorded_pulse(LONG, -ahead / 3.6, aside / 3.6, polarity="49 CFR 563")
+    back = 10.0 * np.clip(LONG / 0.08, 0.0, 1.0) - 40.0 * np.clip((LONG - 0.16) / 0.08, 0.0, 1.0)
+    with pytest.warns(col.OutOfRangeWarning, match=r"to 30 km/h, in another direction, at"):
+        recorded_pulse(LONG, -back / 3.6, polarity="49 CFR 563")
 
 
 def test_what_comes_within_the_stated_error_after_the_end_is_not_said():

@@ -297,7 +297,6 @@ def test_a_difference_that_is_one_number_is_not_taken_for_that_of_another_regime
         assert near.contributions["y"] == pytest.approx(0.04 / 1.04, abs=0.01)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("gap", [(0.45, 0.5), (0.4, 0.5)])
 def test_cases_that_neither_model_answers_do_not_lie_beyond_those_asked(gap):
     """There is nothing to correct in them; the models differ by one number."""
@@ -315,6 +314,7 @@ def test_cases_that_neither_model_answers_do_not_lie_beyond_those_asked(gap):
     assert found["z"].mean == pytest.approx(alone["z"].mean, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_more_cases_beyond_those_asked_than_were_asked_are_refused():
     """The first 64 of 4,096 cases are of one regime, a tenth of all others of another."""
 

@@ -11,7 +11,6 @@ from functools import partial
 from operator import gt, le, lt
 from typing import Any, NamedTuple, get_type_hints
 
-from ..messages.marked import plain
 from ..quantities.attributes import OWN_UNIT, Quantities
 from ..quantities.strict_json import strict
 from ..quantities.tables import Cells, Part, Summarized, Summary
@@ -215,7 +214,7 @@ class Check:
                 found.append(
                     Finding(
                         code=self.code,
-                        sentence=plain(sentence),
+                        sentence=sentence,
                         measured=float(value),
                         limit=float(limit),
                         unit=self.limit.unit,

@@ -166,9 +166,9 @@ def apart_in_words(impact: Impact, shares: Any) -> str:
     )
     rule = f"the {impact.inputs.rule}, ".replace("_", " ") if slid else ""
     energy = any(name.startswith(("energy", "ees", "max_crush")) for name in names)
-    twice = " or twice that of the energy," if energy else ""
+    twice = f" (or {200.0 * most:.0f} percent of the energy)" if energy else ""
     return (
-        f"{known} differ from this answer by {up_to}{much} percent of the impulse,{twice} "
+        f"{known} differ from this answer by {up_to}{much} percent of the impulse{twice}, "
         f"where recorders are accurate to {100.0 * RECORDER_ACCURACY.high:.0f} percent: {rule}one "
         "of them, a course or the geometry is wrong"
     )

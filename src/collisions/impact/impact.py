@@ -14,7 +14,6 @@ from ..kernels.contact_laws import BRACH, FRICTION, LAWS, RULES
 from ..kernels.elementwise import UNIT_INTERVAL, select
 from ..kernels.status import Passed
 from ..messages.errors import InputError, NoSolutionError, Status
-from ..messages.marked import plain
 from ..messages.warning import quietly
 from ..quantities.attribute_stubs import ImpactQuantities
 from ..quantities.attributes import (
@@ -510,9 +509,8 @@ class Impact(_SpeedsBefore, Frozen, Summarized):
 
         with in_si():
             found = neglected(self)
-            said: tuple[str, ...] = () if found is None else (found.sentence,)
-            said = *said, *doubts(self), *found_backwards(self), *estimates(self)
-        return tuple(map(plain, said))
+            said = () if found is None else (found.sentence,)
+            return *said, *doubts(self), *found_backwards(self), *estimates(self)
 
     @derived()
     def complete(self) -> Any:

@@ -51,9 +51,7 @@ LOOKED_AROUND = (
     "as far as the tyres reach, and one that none of these leads to is missed"
 )
 # Of speeds that were asked for forwards alone, after which answers.
-LEFT_BACKWARDS = (
-    "in which a vehicle goes backwards along its course: left out (`forward_only=True`)"
-)
+LEFT_BACKWARDS = "in which a vehicle goes backwards along its course: left out (forward_only=True)"
 # Of the closing speed: by no more do motions after differ that nothing changed.
 _ROUNDING = 1e-9
 # The reverse solvers that take a duration and tyres.
@@ -111,15 +109,15 @@ def neglected(
     ]
     if not parts:
         return None
-    advice = f"give `duration=` and {', '.join(f'`tyres_{label}=`' for label in lacking)}"
+    advice = f"give duration= and {', '.join(f'tyres_{label}=' for label in lacking)}"
     if of_scene:
-        advice = "give the contact `duration=` and its vehicles `tyres=`"
+        advice = "give the contact duration= and its vehicles tyres="
     elif origin is not None and origin.method not in TAKE_TYRES:
         # Drags act against a motion from A towards B alone.
         states = impact.a.before, impact.a.after, impact.b.before, impact.b.after
         follows = all(np.nanmin(state.vx) >= 0.0 for state in states)
         advice = (
-            f"give `duration=` and {', '.join(f'`drag_{label}=`' for label in lacking)}"
+            f"give duration= and {', '.join(f'drag_{label}=' for label in lacking)}"
             if follows
             else "collisions.left_out says more of it"
         )
@@ -137,11 +135,11 @@ def _of_the_other(
     if not math.isfinite(share):
         return None
     who = with_name(f"vehicle {label.upper()}", getattr(impact.inputs, label))
-    advice = f"give `tyres_{label}=`"
+    advice = f"give tyres_{label}="
     if of_scene:
-        advice = "give that vehicle its `tyres=`"
+        advice = "give that vehicle its tyres="
     elif not impact.inputs.tyres:
-        advice = f"give `drag_{label}=`, which is 0 where its wheels roll"
+        advice = f"give drag_{label}=, which is 0 where its wheels roll"
     sentence = (
         f"found without the tyres of {who}: of delta-V that leaves out about {percent(share)} if "
         f"they slide with a drag of {_middle(found.drag):.2g} for "
@@ -253,7 +251,7 @@ def _may_have_stuck(impact: Impact) -> tuple[str, ...]:
     return (
         f"{of}the slip after the impact, {say(least, 'speed', 3)}, is so small that it may be "
         f"none: then the contact stuck, and the slip before was anything {where or 'at all'}; the "
-        "answer is that of the sign of the slip after. Decide with `impulse_ratio=` of either sign",
+        "answer is that of the sign of the slip after. Decide with impulse_ratio= of either sign",
     )
 
 
@@ -317,8 +315,8 @@ def _motion_left_out(impact: Impact) -> tuple[str, ...]:
         return ()
     return (
         f"found with tyres: of delta-V that leaves out about {percent(motion)} for point and "
-        f"normal that move on, during {_middle(found.duration):.3g} s{_medians(impact)}; `fit` or "
-        "`posterior` with `time_resolved` as the model has it",
+        f"normal that move on, during {_middle(found.duration):.3g} s{_medians(impact)}; fit or "
+        "posterior with time_resolved as the model has it",
     )
 
 

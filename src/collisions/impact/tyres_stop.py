@@ -69,7 +69,7 @@ def estimates(impact: Impact) -> Iterator[str]:
     sentence = (
         "the tyres could stop a vehicle, or its turning, within the duration of the contact: up to "
         f"{much} the momentum that it gains is only estimated; follow the contact in time, by "
-        "`time_resolved`"
+        "time_resolved"
     )
     yield from in_cases(shares > MOST_ESTIMATED, sentence)
 

@@ -37,8 +37,8 @@ class options:
         ``explain``, ``report`` and pictures. 0 and infinity need none, nor do the numbers of a
         distribution such as ``Normal(13, 1)`` where its dimension is not known; that of inputs of a
         ``Scene`` is, and that of readings and tolerances of what a model returns as Quantities.
-        Models of ``propagate``, ``fit`` and ``posterior`` are called with SI numbers, and may pass
-        them on.
+        Models of ``propagate``, ``fit`` and ``posterior``, and a restitution that is a function of
+        the closing speed, are called with SI numbers, and may pass them on.
 
     Raises
     ------

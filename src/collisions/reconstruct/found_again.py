@@ -149,7 +149,8 @@ def contradicted_origin(impact: Impact) -> Iterator[str]:
             if origin.misfit is None
             else f"says that what was known is {origin.misfit:.6g} of the impulse from the answer"
         )
-        yield f"it {says}, and solving it again finds {again.misfit}"
+        finds = "none" if again.misfit is None else f"{again.misfit:.6g}"
+        yield f"it {says}, and solving it again finds {finds}"
     pairs = (origin.slip_if_stuck or (), again.slip_if_stuck or ())
     scale = _SAME_VELOCITY * abs(impact.closing_speed)
     if len(pairs[0]) != len(pairs[1]) or not all(

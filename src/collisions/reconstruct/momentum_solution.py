@@ -14,7 +14,6 @@ import numpy as np
 from ..impact.doubts import BACKWARDS, NEARLY_COLLINEAR, from_one_line, in_cases
 from ..kernels.status import Status
 from ..messages.errors import MissingInputError
-from ..messages.marked import plain
 from ..quantities.attribute_stubs import MomentumSolutionQuantities
 from ..quantities.attributes import Shown, derived, equal
 from ..quantities.settings import in_si
@@ -217,7 +216,7 @@ class MomentumSolution(Shown):
                 said.append(other.sentence(self, say))
             elif self._may_have_others():
                 said.append(self._not_looked_for())
-        return tuple(map(plain, said))
+        return tuple(said)
 
     def _doubts(self, say: Sentences) -> Iterator[str]:
         """That a speed is backwards along its course, that small errors move the answer far, and
@@ -245,7 +244,7 @@ class MomentumSolution(Shown):
         name, of = (_of_vehicle(one) for one in self.unknowns)
         # Backwards along its course it is none.
         fits = answered & np.greater_equal(speed, 0.0) & np.isfinite(course)
-        two = f"two courses fit as the {of}, and `course_near` chose"
+        two = f"two courses fit as the {of}, and course_near chose"
         if np.any(answered & np.less(getattr(self, self.unknowns[0]), 0.0)):
             two = f"with another course as the {of} none goes backwards"
         if np.ndim(fits) or self.tyres:

@@ -222,15 +222,15 @@ def neglected(
         medians = " in half of the cases or more"
     sentence = (
         f"found as an instant, which leaves out the tyres: if all wheels slid for {duration:.3g} s "
-        f"with a drag of {drag:.2g}, {' and '.join(parts)}{medians}; give `duration=` and "
-        "`tyres_a=`, `tyres_b=`"
+        f"with a drag of {drag:.2g}, {' and '.join(parts)}{medians}; give duration= and "
+        "tyres_a=, tyres_b="
     )
     if solution.tyres:
         (label,) = labels
         sentence = (
             f"found without the tyres of vehicle {label.upper()}: if its wheels slid for "
             f"{duration:.3g} s with a drag of {drag:.2g}, {' and '.join(parts)}{medians}; give "
-            f"`tyres_{label}=`"
+            f"tyres_{label}="
         )
     return Neglect(changes, max(shares), sentence)
 

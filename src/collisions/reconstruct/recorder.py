@@ -41,6 +41,8 @@ _LEFTWARD = {"49 CFR 563": -1.0, "ISO 8855": 1.0}
 _QUIET_CHANGE, _QUIET_TIME = 0.8 / 3.6, 0.020
 # 563.7, Table I: the maximum is that up to 30 ms after the end of the event.
 _BEYOND_THE_END = 0.030
+# Cosine of an angle that is one direction of a vector of two readings with their errors.
+_SAME_DIRECTION = math.cos(math.radians(30.0))
 # A reading may be off by a step of the recorder.
 _STEP = RECORDER_RESOLUTION.high * (1.0 + 1e-9)
 _LONGEST = 3.0  # s; no contact of vehicles lasts longer
@@ -525,12 +527,14 @@ def _went_on(times: Any, forward: Any, left: Any, say: Callable[[float], str] = 
     apart = math.hypot(*(part[at] - part[until] for part in parts))
     if times[at] <= times[until] or apart <= _error(size[at]):
         return ""
-    turned = abs(size[at] - size[until]) <= _error(size[at])
+    then = int(np.argmax(quiet))
+    along = sum(float(part[at]) * float(part[then]) for part in parts)
+    turned = along < _SAME_DIRECTION * size[at] * size[then]
     where = ", in another direction," if turned else ""
     return (
-        f"by 49 CFR 563 the event had ended at {end:.3g} s, with {say(size[np.argmax(quiet)])}, "
-        f"and delta-V went on to {say(size[at])}{where} at {times[at]:.3g} s: braking or another "
-        "impact may be in it; if it is, leave out the samples after the end"
+        f"by 49 CFR 563 the event had ended at {end:.3g} s, with {say(size[then])}, and delta-V "
+        f"went on to {say(size[at])}{where} at {times[at]:.3g} s: braking or another impact may be "
+        "in it; if it is, leave out the samples after the end"
     )
 
 

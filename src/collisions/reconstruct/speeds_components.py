@@ -909,13 +909,15 @@ class ComponentScene(Scene):
         if np.any(differ):
             worst = float(np.max(np.where(answered, misfit, 0.0), initial=0.0))
             much = percent_beyond(worst, ACCURACY)
+            # The misfit of an energy is half of what it differs by.
+            twice = "" if self.energy is None else f" (or {2.0 * worst:.0%} of the energy)"
             why = (
                 f"the stated accuracy of recorders is {ACCURACY:.0%}: one of them, a course or "
                 "the geometry is wrong"
             )
             text = (
-                f"{who} differ from their best common answer by {up_to}{much}% of the impulse, "
-                f"where {why}"
+                f"{who} differ from their best common answer by {up_to}{much}% of the impulse"
+                f"{twice}, where {why}"
             )
             sentence = f"{who} differ from their best common answer by more than they may, as {why}"
             text = cases.how_many(differ) + text

@@ -332,7 +332,8 @@ UNITS: dict[str, str] = {f.name: f.metadata["unit"] for f in fields(Contact) if 
 
 
 def _restored(given: dict[str, Any]) -> Contact:
-    return Contact(**given)
+    with in_si():
+        return Contact(**given)
 
 
 def _time(reader: ArgumentReader, at: Any) -> Any:

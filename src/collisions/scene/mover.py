@@ -213,4 +213,5 @@ class Mover(Shown):
 
 
 def _restored(given: dict[str, Any]) -> Mover:
-    return Mover(**given)
+    with in_si():
+        return Mover(**given)

@@ -182,7 +182,8 @@ def replaced(scene: Scene, changes: Any) -> Scene:
     for path, value in spread.items():
         owner, part = owner_of(scene, path)
         grouped.setdefault(owner, {})[part] = value
-        if unit_required(path) and (unit := _unit(owner, part)):
+        # A normal may be a vector, which has none.
+        if unit_required(path) and (unit := _unit(owner, part)) and not isinstance(value, tuple):
             reader.number(value, unit, path)
     reader.close()
     # What stays as it is are the scene's own numbers.

@@ -206,7 +206,7 @@ class Areas(NamedTuple):
         parts = [
             np.abs(after[1 + at] - before[1 + at])
             + 0.2 * took * factor * (np.abs(before[4 + at]) + np.abs(after[4 + at]))
-            + 0.02 * took * took * factor * (np.abs(before[7 + at]) + np.abs(after[10 + at]))
+            + 0.02 * took * took * factor * (np.abs(after[7 + at]) + np.abs(after[10 + at]))
             for at, factor in ((0, 1.0), (1, 1.0), (2, np.abs(spin)))
         ]
         return self.length * (np.hypot(*parts[:2]) + _NEAR) + lever * parts[2]

@@ -17,7 +17,7 @@ from ..quantities.directions import Angle
 from ..quantities.reading import ArgumentReader, at_least_zero
 from ..quantities.refusals import must_be
 from ..quantities.settings import in_si, units_required
-from ..quantities.units import is_quantity
+from ..quantities.units import has_unit, is_quantity
 from ..vehicle.drag import one_value
 
 # What a heading may turn by from one point to the next.
@@ -115,8 +115,10 @@ def read_headings(reader: ArgumentReader, headings: Any, count: int | None) -> l
     if parts is None:
         return []
     # An array was read as a whole; of a list each has a unit where one is required.
-    if not (units_required.get() and isinstance(headings, (list, tuple))):
-        reader.trusted = [f"headings[{i}]" for i in range(1, len(parts))]
+    listed = isinstance(headings, (list, tuple))
+    if not (listed and units_required.get()):
+        first = 1 if listed or not has_unit(headings) else 0
+        reader.trusted = [f"headings[{i}]" for i in range(first, len(parts))]
     wrong = len(reader.problems)
     with _as_read(headings):
         angles = [_read_heading(reader, part, f"headings[{i}]") for i, part in enumerate(parts)]
