@@ -359,8 +359,8 @@ def test_what_is_answered_while_tyres_act_is_what_was(known):
     assert np.all(answered | ambiguous | ~end.ok)
     # An origin from which none of the starts comes near is missed, as the statement says.
     assert np.count_nonzero(off[answered] > 1e-6) <= 0.005 * np.count_nonzero(answered)
-    assert "is missed" in found.statements[0]
-    assert "(medians)" in found.statements[1]
+    assert any("is missed" in line for line in found.statements)
+    assert any("(medians)" in line for line in found.statements)
 
 
 @pytest.mark.slow

@@ -369,6 +369,11 @@ class Search:
                     if self.regime is None:
                         # What is stated is in doubt whichever start led to it.
                         one.may_slide = one.may_slide & np.any(fits[: len(found)], axis=0)
+        elif isinstance(scene, ComponentScene):
+            # Where no more is known than is sought, what settles fits; an instant may have none.
+            settled = np.any(fits, axis=0)
+            for one in [scene, *scene.ways]:
+                one.misfit = np.where(settled & np.isinf(one.misfit), 0.0, one.misfit)
         roots = []
         for i in range(len(starts)):
             condition = answer.condition[i]
