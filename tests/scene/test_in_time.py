@@ -393,7 +393,7 @@ def test_nor_does_it_act_beside_the_impulse_of_the_tyres_of_the_other(model) -> 
         left = neglected(run.impacts[0], of_scene=True)
         assert left is not None
         assert left.sentence.startswith("found without the tyres of vehicle B: of delta-V")
-        assert left.sentence.endswith("for 0.1 s; give that vehicle its `tyres=`")
+        assert left.sentence.endswith("for 0.1 s; give that vehicle its tyres=")
         assert left.assumed == "drag"
     two = {"A": movers["A"].replace(vehicle=car(x=-8.0, vx=np.array([6.0, 7.0])))}
     batch = Scene(movers=movers | two, contacts=[Contact("A", "B", **given, **more)])
