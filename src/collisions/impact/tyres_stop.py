@@ -65,9 +65,9 @@ def estimates(impact: Impact) -> Iterator[str]:
         return
     shares = most_estimated(impact)
     most = float(np.max(shares, initial=0.0))
-    much = "as much as" if most >= 1.0 else f"{100.0 * most:.0f} percent of"
+    much = "more than" if most >= 1.0 else f"up to {100.0 * most:.0f} percent of"
     sentence = (
-        "the tyres could stop a vehicle, or its turning, within the duration of the contact: up to "
+        "the tyres could stop a vehicle, or its turning, within the duration of the contact: "
         f"{much} the momentum that it gains is only estimated; follow the contact in time, by "
         "time_resolved"
     )

@@ -36,7 +36,6 @@ from .distribution import probability
 from .probability import Condition
 
 COVERAGE = 0.95
-_MOST_BINS = 10000
 # Heads of figures that are none.
 _ONE_ANSWER = "in the one case that has an answer, so no spread is known"
 _NO_ANSWER = "no case has an answer"
